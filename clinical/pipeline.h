@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clinical/case.h"
+#include "core/model/model.h"
+
+namespace sinew {
+
+/// What the stages need beside the case: nothing global.
+struct PipelineContext {
+  std::filesystem::path resource_dir;
+  std::filesystem::path case_dir;
+  const Model* reference = nullptr;
+  /// Writes the report PDF; supplied by the application, because it draws. Empty: the report stage says so and fails.
+  std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)> write_report;
+};
+
+enum class StageState { Missing, Blocked, Ready, Stale, Done, Failed };
+std::string nameOf(StageState state);
+
+/// State of a stage: Missing = nothing entered for it, Blocked = an earlier stage is not done, Ready = can run, Stale =
+/// ran from other inputs than today's, Done, Failed (ran and did not converge).
+StageState stateOf(const Case& c, Stage stage);
+
+/// Hash of everything the stage reads, today.
+std::string inputHash(const Case& c, Stage stage);
+
+/// Runs one stage from the stored inputs; returns the case with result and record. Pure but for files below
+/// case_dir/results. Cancelled or failed stages keep the previous result and say so in the record.
+/// @throws InputError for unusable inputs (missing file, no sightings, stale predecessor, ...).
+Case runStage(const Case& c, Stage stage, const PipelineContext& context, const Job& job = {});
+
+/// The report's inputs are all done and fresh; otherwise why not, one line a stage.
+std::vector<std::string> reasonsAgainstReport(const Case& c);
+
+/// The patient's model: fitted shape, naive anchoring, exam's length factors; as far as the case has got.
+std::optional<Model> patientModel(const Case& c, const Model& reference);
+
+}  // namespace sinew

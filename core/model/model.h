@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/error.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/muscle/musculature.h"
+#include "core/skeleton/shape.h"
+#include "core/skeleton/skeleton.h"
+
+namespace sinew {
+
+/// Surface of one bone; several bones may belong to one segment (tibia, fibula).
+struct BoneMesh {
+  std::string bone;  ///< "femur_r"
+  int segment = -1;
+  TriangleMesh mesh;  ///< in the segment frame
+};
+
+/// A whole musculoskeletal model: everything constant. Algorithms are free functions over (Model, Posture).
+struct Model {
+  std::string name = "reference";
+  ShapeParameters shape;  ///< relative to the reference
+  Skeleton skeleton;      ///< of that shape
+  Musculature musculature;
+  std::shared_ptr<const std::vector<BoneMesh>> bones = std::make_shared<std::vector<BoneMesh>>();
+  std::map<std::string, double> length_factors;  ///< by unit: what the exam changed (1 if absent)
+};
+
+/// The reference model from the resource folder (skeleton, landmarks, muscles, bone meshes).
+Model loadReferenceModel(const std::filesystem::path& resource_dir);
+
+/// The model of a shape: bones and joints deformed, path points carried by the same field ("naive anchoring": each
+/// anchor moves with its bone), fibre and tendon lengths scaled by the ratio of path lengths at the zero posture.
+Model deformedModel(const Model& reference, const ShapeParameters& shape);
+
+/// Versioned JSON ("sinew.model", version 1). Bone meshes are not stored: they follow from the shape.
+void saveModel(const Model& model, const std::filesystem::path& file);
+/// `reference` supplies the bones. @throws InputError: where, field, expected, found.
+Model loadModel(const std::filesystem::path& file, const Model& reference);
+/// "reference" or a file.
+Model loadModelByName(const std::string& name_or_file, const std::filesystem::path& resource_dir);
+
+/// Broken invariants and doubts: weights, mirror symmetry of the reference, positive parameters, spanning joints, ...
+Warnings validateModel(const Model& model);
+
+}  // namespace sinew

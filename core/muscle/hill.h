@@ -1,0 +1,38 @@
+#pragma once
+
+namespace sinew {
+
+// Hill-type muscle of Thelen 2003 (J Biomech Eng 125:70-77), quasi-static, constant pennation:
+//   F = F_max (a f_CE(l) + f_PE(l)) cos(pennation) = F_max f_SE(l_t / l_slack),   l = fibre length / optimal length.
+// Every curve is C1 and comes with its derivative.
+
+struct CurveValue {
+  double value = 0;
+  double slope = 0;
+};
+
+/// Active force-length: Gaussian exp(-(l - 1)^2 / 0.45).
+CurveValue activeForceLength(double normalized_fiber_length);
+/// Passive force-length: exponential, 0 for l <= 1, 1 at l = 1.6 (strain 0.6; shape 5).
+CurveValue passiveForceLength(double normalized_fiber_length);
+/// Tendon force-strain: exponential toe then linear; 0 for l_t <= l_slack, 1 at strain 0.033.
+CurveValue tendonForceLength(double normalized_tendon_length);
+/// Force-velocity factor, velocity in optimal fibre lengths per second, lengthening positive; v_max = 10 / s.
+double forceVelocity(double normalized_fiber_velocity, double activation = 1);
+
+struct MusculotendonUnit;
+
+/// Static equilibrium of fibre and tendon.
+struct FiberState {
+  double fiber_length_m = 0;
+  double tendon_length_m = 0;
+  double normalized_fiber_length = 0;
+  double force_N = 0;          ///< along the tendon
+  double active_force_N = 0;   ///< share of the active element
+  bool slack = false;          ///< the path is shorter than the slack tendon and fibre: no force
+};
+
+/// Equilibrium at a path length and an activation in [0, 1]. Never lets a fibre length <= 0 into the curves.
+FiberState equilibrium(const MusculotendonUnit& unit, double musculotendon_length_m, double activation);
+
+}  // namespace sinew

@@ -1,0 +1,21 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// Splits one line of comma-separated values; double quotes protect commas, "" is a quote. Blanks around a cell go.
+std::vector<std::string> splitCsvLine(std::string_view line);
+
+/// The `count` known names most like `name` (edit distance), nearest first: to answer a wrong name.
+std::vector<std::string> nearestNames(std::string_view name, std::span<const std::string> known, std::size_t count = 3);
+
+/// Ends an error message about a wrong name: "; nearest: a, b, c" or nothing if `known` is empty.
+std::string didYouMean(std::string_view name, std::span<const std::string> known);
+
+/// @throws InputError naming `where` and `field` if `text` is not one finite number.
+double parseNumber(std::string_view text, const std::string& where, const std::string& field);
+
+}  // namespace sinew
