@@ -17,7 +17,7 @@ namespace sinew {
 
 /// The stages of a case, in their order.
 enum class Stage { Images, Calibration, Landmarks, Skeleton, Musculature, Exam, Report };
-constexpr std::array kStages = {Stage::Images,      Stage::Calibration, Stage::Landmarks, Stage::Skeleton,
+inline constexpr std::array kStages = {Stage::Images,      Stage::Calibration, Stage::Landmarks, Stage::Skeleton,
                                 Stage::Musculature, Stage::Exam,        Stage::Report};
 std::string nameOf(Stage stage);   ///< "images", ...: files and command line
 std::string titleOf(Stage stage);  ///< "Images", ...: screen

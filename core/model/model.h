@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/muscle/musculature.h"
+#include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape.h"
 #include "core/skeleton/skeleton.h"
 
