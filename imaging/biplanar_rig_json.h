@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "core/strict_json.h"
+#include "imaging/biplanar_rig.h"
+
+namespace sinew {
+
+/// "sinew.rig", version 1: what rig files hold and what a case embeds. Metres, pixels; NaN is null.
+Json rigToJson(const BiplanarRig& rig);
+/// @throws InputError for a member that is missing, unknown or of a wrong type, a rotation that is none, a size,
+/// spacing or focal length that is not positive.
+BiplanarRig rigFromJson(const JsonReader& json);
+
+}  // namespace sinew
