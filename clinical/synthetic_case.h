@@ -13,6 +13,7 @@ namespace sinew {
 enum class SyntheticRig { ConeBeam, SlotScan };
 
 struct SyntheticOptions {
+  std::filesystem::path resource_dir;  ///< priors, landmark protocol, examination tests
   unsigned seed = 1;
   SyntheticRig rig = SyntheticRig::ConeBeam;
   double picking_noise_mm = 1.0;   ///< SD of a landmark pick, in the plane of the patient
