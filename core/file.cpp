@@ -54,7 +54,8 @@ std::string readFile(const std::filesystem::path& file, std::uintmax_t max_bytes
   if (!in) throw InputError{file.string() + ": cannot be opened"};
   const auto size = std::filesystem::file_size(file, error);
   if (!error && size > max_bytes)
-    throw InputError{{file.string(), "size", "at most " + std::to_string(max_bytes) + " bytes", std::to_string(size)}};
+    throw InputError{
+        {file.string(), "size", "at most " + std::to_string(max_bytes) + " bytes", std::to_string(size)}};
   std::ostringstream content;
   content << in.rdbuf();
   return std::move(content).str();
@@ -94,6 +95,8 @@ std::string sha256(std::string_view content) {
   return text;
 }
 
-std::string sha256OfFile(const std::filesystem::path& file) { return sha256(readFile(file)); }
+std::string sha256OfFile(const std::filesystem::path& file) {
+  return sha256(readFile(file));
+}
 
 }  // namespace sinew

@@ -10,10 +10,14 @@ enum class Outcome { NotRun, Converged, NotConverged, Cancelled };
 
 constexpr std::string_view nameOf(Outcome outcome) {
   switch (outcome) {
-    case Outcome::NotRun: return "not_run";
-    case Outcome::Converged: return "converged";
-    case Outcome::NotConverged: return "not_converged";
-    case Outcome::Cancelled: return "cancelled";
+    case Outcome::NotRun:
+      return "not_run";
+    case Outcome::Converged:
+      return "converged";
+    case Outcome::NotConverged:
+      return "not_converged";
+    case Outcome::Cancelled:
+      return "cancelled";
   }
   return "";
 }

@@ -10,7 +10,8 @@ namespace sinew {
 std::vector<std::string> splitCsvLine(std::string_view line);
 
 /// The `count` known names most like `name` (edit distance), nearest first: to answer a wrong name.
-std::vector<std::string> nearestNames(std::string_view name, std::span<const std::string> known, std::size_t count = 3);
+std::vector<std::string> nearestNames(std::string_view name, std::span<const std::string> known,
+                                      std::size_t count = 3);
 
 /// Ends an error message about a wrong name: "; nearest: a, b, c" or nothing if `known` is empty.
 std::string didYouMean(std::string_view name, std::span<const std::string> known);

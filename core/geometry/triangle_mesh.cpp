@@ -15,8 +15,7 @@ double signedVolume_m3(const TriangleMesh& mesh) {
 std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d n =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    const Eigen::Vector3d n = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
     for (const auto i : {a, b, c}) normals[i] += n;
   }
   for (auto& n : normals) n.normalize();

@@ -25,3 +25,5 @@ RigidTransformT<T> deformedJointFrame(const Skeleton& reference, const std::vect
 Skeleton deformedSkeleton(const Skeleton& reference, const ShapeParameters& shape);
 
 }  // namespace sinew
+
+#include "core/skeleton/bone_field_internal.h"  // IWYU pragma: keep

@@ -7,8 +7,8 @@
 namespace sinew {
 
 /// The clinical view of a posture: 50 entries in the order of Skeleton::coordinates - angles [rad] as turns about the
-/// coordinates' axes in sequence (flexion, then adduction, then axial; Grood & Suntay 1983, Wu 2002), translations [m].
-/// Inverse of each other while the middle angle stays within +-90 deg.
+/// coordinates' axes in sequence (flexion, then adduction, then axial; Grood & Suntay 1983, Wu 2002), translations
+/// [m]. Inverse of each other while the middle angle stays within +-90 deg.
 Eigen::VectorXd clinicalFromPosture(const Skeleton& skeleton, const Posture& q);
 Posture postureFromClinical(const Skeleton& skeleton, const Eigen::VectorXd& clinical);
 

@@ -33,8 +33,8 @@ std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_di
 
 struct FitOptions {
   int max_iterations = 100;
-  double robust_loss_sigma = 3;         ///< Huber: residuals beyond this many sigma count linearly
-  double undetermined_ratio = 0.9;      ///< a parameter whose SD stays above this share of its prior is undetermined
+  double robust_loss_sigma = 3;     ///< Huber: residuals beyond this many sigma count linearly
+  double undetermined_ratio = 0.9;  ///< a parameter whose SD stays above this share of its prior is undetermined
 };
 
 struct LandmarkResidual {
@@ -65,9 +65,10 @@ struct SkeletonFit {
   Warnings warnings;                      ///< worst offenders, unknown landmarks, ...
 };
 
-/// Shape and posture that explain the sightings in both views: non-linear least squares over every shape parameter and
-/// coordinate that a landmark depends on; residuals in pixels / sigma, Huber loss, population priors, bounds; covariance
-/// from the Jacobian at the solution (Laplace). @throws InputError if no landmark is known or none is seen.
+/// Shape and posture that explain the sightings in both views: non-linear least squares over every shape parameter
+/// and coordinate that a landmark depends on; residuals in pixels / sigma, Huber loss, population priors, bounds;
+/// covariance from the Jacobian at the solution (Laplace). @throws InputError if no landmark is known or none is
+/// seen.
 SkeletonFit fitSkeleton(const Skeleton& reference, std::span<const View> views,
                         std::span<const LandmarkObservation> observations, std::span<const ShapePrior> priors,
                         const FitOptions& options = {}, const Job& job = {});

@@ -7,11 +7,13 @@
 
 namespace sinew {
 
-/// All 50 entries of a posture: per joint what its type needs - the root 3 translations [m] and a rotation vector [rad],
-/// a ball joint the rotation vector (exponential map) of the child relative to its zero orientation, a revolute joint
-/// its angle [rad].
+/// All 50 entries of a posture: per joint what its type needs - the root 3 translations [m] and a rotation vector
+/// [rad], a ball joint the rotation vector (exponential map) of the child relative to its zero orientation, a
+/// revolute joint its angle [rad].
 using Posture = Eigen::VectorXd;
-inline Posture zeroPosture(const Skeleton& skeleton) { return Posture::Zero(skeleton.coordinateCount()); }
+inline Posture zeroPosture(const Skeleton& skeleton) {
+  return Posture::Zero(skeleton.coordinateCount());
+}
 
 /// Pose X_WB of every segment, driven ones included. `X_PJ` are the joint frames (of a deformed skeleton, say); T is
 /// double or an automatic-differentiation scalar. Driven segments need doubles: see kinematics().
@@ -51,8 +53,8 @@ struct SegmentMotion {
 
 /// Where every segment is, and how it moves with every coordinate.
 struct Kinematics {
-  std::vector<RigidTransform> X_WB;                   ///< by segment
-  std::vector<std::vector<SegmentMotion>> motions;    ///< by segment: the coordinates that move it
+  std::vector<RigidTransform> X_WB;                 ///< by segment
+  std::vector<std::vector<SegmentMotion>> motions;  ///< by segment: the coordinates that move it
 };
 
 /// Forward kinematics with analytic derivatives; driven segments included.
@@ -62,6 +64,7 @@ Kinematics kinematics(const Skeleton& skeleton, const Posture& q);
 std::vector<RigidTransform> segmentPoses(const Skeleton& skeleton, const Posture& q);
 
 /// dp_W/dq, 3 x 50, of the point p_B fixed to a segment.
-Eigen::Matrix3Xd pointJacobian(const Skeleton& skeleton, const Kinematics& k, int segment, const Eigen::Vector3d& p_B);
+Eigen::Matrix3Xd pointJacobian(const Skeleton& skeleton, const Kinematics& k, int segment,
+                               const Eigen::Vector3d& p_B);
 
 }  // namespace sinew
