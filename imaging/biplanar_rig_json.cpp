@@ -1,7 +1,5 @@
 #include "imaging/biplanar_rig_json.h"
 
-#include <Eigen/LU>
-
 namespace sinew {
 namespace {
 
@@ -81,7 +79,7 @@ Eigen::Matrix3d rotationFromJson(const JsonReader& json) {
   }
   const double error = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kRotationTolerance)) json.fail("an orthonormal matrix", "rows off by " + std::to_string(error));
-  if (R.determinant() < 0) json.fail("a rotation", "a reflection");
+  // A left-handed view frame is a film that is mirrored against the view from its source: legal.
   return R;
 }
 

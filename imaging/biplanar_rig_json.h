@@ -8,7 +8,8 @@ namespace sinew {
 
 /// "sinew.rig", version 1: what rig files hold and what a case embeds. Metres, pixels; NaN is null.
 Json rigToJson(const BiplanarRig& rig);
-/// @throws InputError for a member that is missing, unknown or of a wrong type, a rotation that is none, a size,
+/// @throws InputError for a member that is missing, unknown or of a wrong type, a matrix that is not
+/// orthonormal (a mirrored film, with determinant -1, is legal), a size,
 /// spacing or focal length that is not positive.
 BiplanarRig rigFromJson(const JsonReader& json);
 

@@ -51,7 +51,7 @@ TEST(BiplanarRigJson, RefusesGeometryThatCannotBe) {
 
   json = rigToJson(mixedRig());
   for (auto& entry : json["views"][0]["R_CW"][1]) entry = -entry.get<double>();
-  EXPECT_THAT(complaintAbout(json), HasSubstr("views[0].R_CW: expected a rotation, found a reflection"));
+  EXPECT_EQ(complaintAbout(json), "accepted");  // mirrored film
 
   json = rigToJson(mixedRig());
   json["views"][1]["R_CW"][0][0] = 0.9;
