@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/file.h"
+#include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/landmark_protocol.h"
 #include "core/skeleton/population.h"
 #include "tests/support/resources.h"
@@ -99,6 +100,36 @@ TEST(Population, TheSameSeedDrawsTheSameBody) {
   const ShapeParameters first = drawShape(priors, a);
   EXPECT_EQ(first, drawShape(priors, b));
   EXPECT_FALSE(first == drawShape(priors, c));
+}
+
+TEST(Population, StandingPosturesStayWithinTheNormalRange) {
+  const Skeleton skeleton = loadReferenceSkeleton(test::resourceDir());
+  std::mt19937_64 random{11};
+  for (int draw = 0; draw < 20; ++draw) {
+    const Posture q = drawStandingPosture(skeleton, random);
+    const Eigen::VectorXd clinical = clinicalFromPosture(skeleton, q);
+    for (int i = 6; i < skeleton.coordinateCount(); ++i) {
+      EXPECT_GE(clinical[i], skeleton.coordinates[i].normal_min_rad - 1e-9) << skeleton.coordinates[i].name;
+      EXPECT_LE(clinical[i], skeleton.coordinates[i].normal_max_rad + 1e-9) << skeleton.coordinates[i].name;
+    }
+    EXPECT_GT(q.tail(44).norm(), 0.1);
+  }
+}
+
+TEST(Population, ThePosturePriorIsWeakAndKnowsNothingOfTheRoot) {
+  const Skeleton skeleton = loadReferenceSkeleton(test::resourceDir());
+  const Eigen::VectorXd sd = standingPostureSd(skeleton);
+  EXPECT_TRUE(sd.head<6>().array().isInf().all());
+  EXPECT_NEAR(sd[skeleton.coordinateIndex("knee_flexion_l")], 140.0 / 8 * kRadPerDeg, 1e-9);
+  const int hip = skeleton.joints[skeleton.jointIndex("hip_r")].first_coordinate;
+  EXPECT_NEAR(sd[hip + 2], 140.0 / 8 * kRadPerDeg, 1e-9);  // flexion turns about Z
+  EXPECT_NEAR(sd[hip + 0], 75.0 / 8 * kRadPerDeg, 1e-9);   // adduction about X
+}
+
+TEST(LandmarkProtocol, EveryNameIsALandmarkOfTheSkeleton) {
+  const Skeleton skeleton = loadReferenceSkeleton(test::resourceDir());
+  for (const auto& landmark : loadLandmarkProtocol(test::resourceDir()))
+    EXPECT_NO_THROW(skeleton.landmarkIndex(landmark.name)) << landmark.name;
 }
 
 TEST(LandmarkProtocol, GoesFromThePelvisDownTheRightLegThenTheLeft) {
