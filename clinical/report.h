@@ -25,8 +25,9 @@ struct ReportTable {
 struct PassiveMomentPlot {
   std::string title;  ///< test and side
   std::string convention;
-  std::vector<std::pair<double, double>> before, after;  ///< angle [deg], moment [N m]; without and with the exam's lengths
-  double measured_deg = 0;                               ///< NaN = not measured
+  std::vector<std::pair<double, double>> before,
+      after;                ///< angle [deg], moment [N m]; without and with the exam's lengths
+  double measured_deg = 0;  ///< NaN = not measured
   double simulated_after_deg = 0;
   double threshold_Nm = 0;
   double norm_low_deg = 0, norm_high_deg = 0;  ///< mean -+ 2 SD; NaN = none
@@ -37,9 +38,11 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> header;  ///< label, value
   ReportTable bones, exam, muscles;
-  std::vector<ReportTable> annexes;  ///< definitions, lengths by unit, landmark residuals, truth of a synthetic patient
+  std::vector<ReportTable>
+      annexes;  ///< definitions, lengths by unit, landmark residuals, truth of a synthetic patient
   std::vector<PassiveMomentPlot> passive_moments;
-  std::vector<std::pair<std::string, std::string>> footer;  ///< version, model hash, calibration, RMS, thresholds, norms
+  std::vector<std::pair<std::string, std::string>>
+      footer;  ///< version, model hash, calibration, RMS, thresholds, norms
   std::vector<std::string> warnings;
   std::string disclaimer;  ///< "Research use only - not a medical device ..."
 };

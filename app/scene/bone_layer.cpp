@@ -1,0 +1,71 @@
+#include "app/scene/bone_layer.h"
+
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include "app/scene/palette.h"
+#include "app/scene/vtk_convert.h"
+
+namespace sinew {
+namespace {
+
+void paint(vtkActor& actor, const Rgb& colour) {
+  actor.GetProperty()->SetColor(colour.r, colour.g, colour.b);
+}
+
+vtkSmartPointer<vtkActor> boneActor(const TriangleMesh& mesh) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(toPolyData(mesh));
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  auto* look = actor->GetProperty();
+  look->SetAmbient(0.08);
+  look->SetDiffuse(0.92);
+  look->SetSpecular(0.10);  // dry bone: a weak, wide highlight
+  look->SetSpecularPower(18);
+  paint(*actor, palette::kBone);
+  return actor;
+}
+
+}  // namespace
+
+void BoneLayer::setBones(const std::vector<BoneMesh>& bones) {
+  for (const auto& bone : bones_) renderer_.RemoveActor(bone.actor);
+  bones_.clear();
+  for (const auto& bone : bones) {
+    bones_.push_back({bone.bone, bone.segment, boneActor(bone.mesh)});
+    renderer_.AddActor(bones_.back().actor);
+  }
+  setVisible(visible_);
+  setOpacity(opacity_);
+}
+
+void BoneLayer::setPoses(const std::vector<RigidTransform>& X_WB) {
+  for (auto& bone : bones_) {
+    require(bone.segment >= 0 && bone.segment < int(X_WB.size()), "bone without a segment");
+    bone.actor->SetUserMatrix(toMatrix(X_WB[bone.segment]));
+  }
+}
+
+void BoneLayer::setVisible(bool visible) {
+  visible_ = visible;
+  for (auto& bone : bones_) bone.actor->SetVisibility(visible);
+}
+
+void BoneLayer::setOpacity(double opacity) {
+  opacity_ = opacity;
+  for (auto& bone : bones_) bone.actor->GetProperty()->SetOpacity(opacity);
+}
+
+void BoneLayer::select(const std::string& name) {
+  for (auto& bone : bones_) paint(*bone.actor, bone.name == name ? palette::kYellow : palette::kBone);
+}
+
+std::string BoneLayer::nameOf(const vtkProp* actor) const {
+  for (const auto& bone : bones_)
+    if (bone.actor == actor) return bone.name;
+  return {};
+}
+
+}  // namespace sinew
