@@ -14,8 +14,8 @@ namespace sinew {
 struct CalibrationRecord {
   std::string method;  ///< "bead_phantom", "dicom_slot_scan", "dicom_nominal", "autoscoper", "mayacam", "json"
   std::string id;      ///< short hash of the geometry, printed in the report
-  double rms_px = std::numeric_limits<double>::quiet_NaN();         ///< reprojection RMS of the calibration; NaN = none
-  double accuracy_mm = std::numeric_limits<double>::quiet_NaN();    ///< estimated 3-D accuracy; NaN = unknown
+  double rms_px = std::numeric_limits<double>::quiet_NaN();       ///< reprojection RMS of the calibration; NaN = none
+  double accuracy_mm = std::numeric_limits<double>::quiet_NaN();  ///< estimated 3-D accuracy; NaN = unknown
   Warnings warnings;
   friend bool operator==(const CalibrationRecord& a, const CalibrationRecord& b) {
     return a.method == b.method && a.id == b.id && a.warnings == b.warnings;
@@ -32,12 +32,18 @@ struct BiplanarRig {
   friend bool operator==(const BiplanarRig&, const BiplanarRig&) = default;
 };
 
+/// Largest side of an image that any part accepts.
+inline constexpr int kMaxImageSide_px = 20000;
+
+/// Short hash of the geometry alone: the calibration id of the report.
+std::string geometryId(const std::array<View, 2>& views);
+
 /// Versioned JSON ("sinew.rig", version 1), units in the names. @throws InputError.
 BiplanarRig loadRig(const std::filesystem::path& file);
 void saveRig(const BiplanarRig& rig, const std::filesystem::path& file);
 
-/// Autoscoper / MayaCam 2 text files, one a view: image size, camera matrix, rotation, translation in mm, x = K (R X + t),
-/// origin top-left, y down. @throws InputError for a malformed file, a camera matrix or rotation that is none.
+/// Autoscoper / MayaCam 2 text files, one a view: image size, camera matrix, rotation, translation in mm, x = K (R X
+/// + t), origin top-left, y down. @throws InputError for a malformed file, a camera matrix or rotation that is none.
 BiplanarRig importTextCalibration(std::span<const std::filesystem::path> files, const std::string& method);
 
 /// Angle between the two viewing directions at the middle of the images [rad].

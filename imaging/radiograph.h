@@ -29,7 +29,7 @@ struct RadiographTags {
   std::string patient_name;     ///< UTF-8, DICOM order Family^Given=...
   std::string patient_id, patient_birth_date, patient_sex, study_date, view_position, image_laterality;
   std::string manufacturer, patient_orientation;
-  std::optional<double> imager_column_mm, imager_row_mm;              ///< Imager Pixel Spacing
+  std::optional<double> imager_column_mm, imager_row_mm;  ///< Imager Pixel Spacing
   std::optional<double> distance_source_to_detector_mm, distance_source_to_patient_mm,
       distance_source_to_isocenter_mm, estimated_magnification;
   std::optional<double> positioner_primary_angle_deg, positioner_secondary_angle_deg;
@@ -40,7 +40,8 @@ struct Radiograph {
   int width_px = 0, height_px = 0;
   int bits_stored = 16;
   bool monochrome1 = false;  ///< low values are bright (MONOCHROME1, or Presentation LUT Shape INVERSE)
-  std::shared_ptr<const std::vector<std::uint16_t>> pixels;  ///< row by row from the top left; signed data offset to >= 0
+  std::shared_ptr<const std::vector<std::uint16_t>>
+      pixels;                                  ///< row by row from the top left; signed data offset to >= 0
   double window_center = 0, window_width = 0;  ///< in stored grey values; from the file, or the 1-99 % range
   std::optional<PixelSpacing> spacing;
   RadiographTags tags;
@@ -49,8 +50,8 @@ struct Radiograph {
   std::uint16_t at(int u, int v) const { return (*pixels)[std::size_t(v) * std::size_t(width_px) + std::size_t(u)]; }
 };
 
-/// Reads DICOM (CR, DX, XA, RF, secondary capture; uncompressed, RLE, JPEG lossless, JPEG-LS), TIFF or PNG by content.
-/// `declared_spacing_mm`: pixel size stated by a person, for files that carry none.
+/// Reads DICOM (CR, DX, XA, RF, secondary capture; uncompressed, RLE, JPEG lossless, JPEG-LS), TIFF or PNG by
+/// content. `declared_spacing_mm`: pixel size stated by a person, for files that carry none.
 /// @throws InputError: corrupt, truncated, wrong modality, several frames, colour, absurd size, JPEG 2000, ...
 Radiograph readRadiograph(const std::filesystem::path& file, std::optional<double> declared_spacing_mm = {});
 

@@ -29,8 +29,10 @@ std::vector<Sighting> loadSightings(const std::filesystem::path& file) {
       throw InputError{{where, "columns", "4 or 5", std::to_string(cells.size())}};
     if (cells[0].empty()) throw InputError{{where, "name", "a landmark name", "nothing"}};
     if (cells[1] != "1" && cells[1] != "2") throw InputError{{where, "view", "1 or 2", "'" + cells[1] + "'"}};
-    Sighting s{cells[0], cells[1] == "1" ? 0 : 1,
-               {parseNumber(cells[2], where, "u_px"), parseNumber(cells[3], where, "v_px")}, 1.0};
+    Sighting s{cells[0],
+               cells[1] == "1" ? 0 : 1,
+               {parseNumber(cells[2], where, "u_px"), parseNumber(cells[3], where, "v_px")},
+               1.0};
     if (cells.size() == 5 && !cells[4].empty()) s.sigma_px = parseNumber(cells[4], where, "sigma_px");
     if (!(s.sigma_px > 0)) throw InputError{{where, "sigma_px", "a number > 0", "'" + cells[4] + "'"}};
     for (const auto& other : sightings)

@@ -15,9 +15,9 @@ namespace sinew {
 /// A landmark L located in space.
 struct TriangulatedLandmark {
   std::string name;
-  Eigen::Vector3d p_WL;        ///< world [m]
-  Eigen::Matrix3d cov_W;       ///< [m^2], from the sightings' sigma
-  double reprojection_rms_px;  ///< over the sightings used
+  Eigen::Vector3d p_WL;                        ///< world [m]
+  Eigen::Matrix3d cov_W;                       ///< [m^2], from the sightings' sigma
+  double reprojection_rms_px;                  ///< over the sightings used
   std::array<Eigen::Vector2d, 2> residual_px;  ///< observed minus projected, per view
 };
 

@@ -10,7 +10,8 @@ namespace sinew {
 
 // Geometry of one radiograph: pixel <- point in space. Frames: W world [m]; C view frame [m]: x along +u, y along +v,
 // z from the X-ray source towards the detector; I image [px]: origin at the centre of the top-left pixel, u right,
-// v down. Sources: Hartley & Zisserman 2003, ch. 6 (pinhole); OpenCV's distortion model; slot scanner geometry of EOS
+// v down. An image that is stored mirrored (a posterior-anterior film shown with the patient's right on the left) has a
+// left-handed C: R_CW is then orthogonal with determinant -1. Sources: Hartley & Zisserman 2003, ch. 6 (pinhole); OpenCV's distortion model; slot scanner geometry of EOS
 // type (fan across the slot, parallel along the scan).
 
 /// Point source and flat detector; C has its origin in the source. Pinhole with Brown distortion.
