@@ -17,6 +17,9 @@ void saveCase(const Case& c, const std::filesystem::path& folder);
 std::string caseToJson(const Case& c);
 Case caseFromJson(const std::string& text, const std::string& where);
 
+/// Whether a path of a case points below its folder: relative, no "..", no backslash.
+bool staysInFolder(const std::string& relative_path);
+
 /// Copies a file into the case folder (subfolder images, calibration, ...) under a name without patient data
 /// ("images/view1.dcm") and returns its reference.
 FileReference importFile(const std::filesystem::path& source, const std::filesystem::path& folder,
