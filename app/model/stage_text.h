@@ -1,0 +1,29 @@
+#pragma once
+#include <QString>
+
+#include "app/model/case_document.h"
+#include "imaging/radiograph.h"
+
+namespace sinew {
+
+/// "Ready", "Out of date", ...: one or two words for a badge.
+QString stateTitle(StageState state);
+
+/// One line under a stage's title: its key figures if it ran, what was entered otherwise. No patient data.
+QString stageLine(const Case& c, Stage stage);
+
+/// Why a stage cannot run or should run again; empty if there is nothing to say.
+QString stateExplanation(StageState state, Stage stage);
+
+/// "0.143 x 0.143 mm (at the detector)", "size of a pixel unknown".
+QString spacingText(const Radiograph& radiograph);
+
+/// "femur_length" -> "Femur length", "vastus_lateralis_r" -> "Vastus lateralis, right".
+QString readableName(const std::string& name);
+/// "r" -> "right", "l" -> "left", "" -> "".
+QString sideName(std::string_view side);
+
+/// A figure for the screen: fixed decimals, typographic minus, "-" for NaN.
+QString figure(double value, int decimals);
+
+}  // namespace sinew

@@ -1,0 +1,47 @@
+#pragma once
+#include <QObject>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "clinical/case.h"
+
+namespace sinew {
+
+/// How one radiograph is shown. nullopt = the file's own window.
+struct DisplayWindow {
+  std::optional<double> center, width;
+  bool invert = false;
+  friend bool operator==(const DisplayWindow&, const DisplayWindow&) = default;
+};
+
+/// What the person looks at: never part of the case, never undone.
+class ViewState : public QObject {
+  Q_OBJECT
+ public:
+  explicit ViewState(QObject* parent = nullptr) : QObject{parent} {}
+
+  Stage stage() const { return stage_; }
+  const std::string& landmark() const { return landmark_; }
+  const std::string& muscle() const { return muscle_; }
+  const DisplayWindow& window(int view) const { return windows_.at(std::size_t(view)); }
+
+  void setStage(Stage stage);
+  void setLandmark(const std::string& name);
+  void setMuscle(const std::string& name);
+  void setWindow(int view, const DisplayWindow& window);
+  void reset();  ///< for another case
+
+ signals:
+  void stageChanged();
+  void landmarkChanged();
+  void muscleChanged();
+  void windowChanged(int view);
+
+ private:
+  Stage stage_ = Stage::Images;
+  std::string landmark_, muscle_;
+  std::array<DisplayWindow, 2> windows_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,94 @@
+#include "app/model/workspace.h"
+
+#include "clinical/synthetic_case.h"
+
+namespace sinew {
+namespace {
+
+/// What the patient's model is made from, so that it is rebuilt only then.
+std::string modelKey(const Case& c) {
+  if (!c.skeleton || c.skeleton->outcome != Outcome::Converged) return {};
+  std::string key;
+  for (const double value : toVector(c.skeleton->shape)) key += std::to_string(value) + ' ';
+  if (c.model) key += c.model->sha256;
+  return key;
+}
+
+}  // namespace
+
+Workspace::Workspace(std::filesystem::path resource_dir, ReportWriter write_report, QObject* parent)
+    : QObject{parent}, resource_dir_{std::move(resource_dir)}, write_report_{std::move(write_report)} {
+  connect(&document_, &CaseDocument::rejected, this, &Workspace::problem);
+  connect(&document_, &CaseDocument::replaced, this, [this] {
+    jobs_.cancel();
+    images_.clear();
+    view_.reset();
+  });
+  connect(&jobs_, &JobRunner::ended, this, [this](JobRunner::Ending ending, const QString& message) {
+    if (ending == JobRunner::Ending::Failed) emit problem(message);
+    if (ending == JobRunner::Ending::Cancelled) emit notice(tr("Cancelled: %1").arg(jobs_.title()));
+  });
+}
+
+std::shared_ptr<const Model> Workspace::reference() {
+  const std::scoped_lock lock{reference_mutex_};
+  if (!reference_) reference_ = std::make_shared<const Model>(loadReferenceModel(resource_dir_));
+  return reference_;
+}
+
+const ExamProtocol& Workspace::protocol() {
+  if (!protocol_) protocol_ = loadExamProtocol(resource_dir_);
+  return *protocol_;
+}
+
+std::shared_ptr<const Model> Workspace::patientModel() {
+  const Case& c = document_.current();
+  const std::string key = modelKey(c);
+  if (key != patient_model_key_) {
+    patient_model_.reset();
+    patient_model_key_.clear();
+    if (!key.empty())
+      if (auto model = sinew::patientModel(c, *reference()))
+        patient_model_ = std::make_shared<const Model>(std::move(*model));
+    patient_model_key_ = key;
+  }
+  return patient_model_;
+}
+
+void Workspace::run(std::vector<Stage> stages) {
+  const StageServices services{resource_dir_, [this] { return reference(); }, write_report_};
+  if (!runStages(document_, jobs_, services, std::move(stages)))
+    emit problem(tr("Another computation is still going on: wait for it or cancel it."));
+}
+
+void Workspace::openCase(const std::filesystem::path& folder) {
+  try {
+    document_.open(folder);
+  } catch (const InputError& error) {
+    emit problem(QString::fromUtf8(error.what()));
+  }
+}
+
+void Workspace::saveCase() {
+  if (!document_.isOpen()) return;
+  try {
+    document_.save();
+    emit notice(tr("Case saved"));
+  } catch (const InputError& error) {
+    emit problem(QString::fromUtf8(error.what()));
+  }
+}
+
+void Workspace::makeDemo(const std::filesystem::path& folder, bool slot_scan) {
+  const bool started = jobs_.start(tr("Make the demo patient"), [=, this](const Job& job) -> JobRunner::Finish {
+    SyntheticOptions options;
+    if (slot_scan) options.rig = SyntheticRig::SlotScan;
+    const auto model = reference();
+    const auto patient = drawSyntheticPatient(*model, options);
+    auto made = std::make_shared<Case>(writeSyntheticCase(patient, *model, options, folder, job));
+    return [=, this] { document_.adopt(*made, folder); };
+  });
+  if (!started) emit problem(tr("Another computation is still going on: wait for it or cancel it."));
+}
+
+}  // namespace sinew

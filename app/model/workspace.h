@@ -1,0 +1,65 @@
+#pragma once
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "app/model/case_document.h"
+#include "app/model/image_store.h"
+#include "app/model/job_runner.h"
+#include "app/model/stage_runner.h"
+#include "app/model/view_state.h"
+#include "core/rom/exam_test.h"
+
+namespace sinew {
+
+/// Everything the panels of a window share.
+class Workspace : public QObject {
+  Q_OBJECT
+ public:
+  using ReportWriter = decltype(StageServices::write_report);
+
+  Workspace(std::filesystem::path resource_dir, ReportWriter write_report, QObject* parent = nullptr);
+
+  CaseDocument& document() { return document_; }
+  ViewState& view() { return view_; }
+  JobRunner& jobs() { return jobs_; }
+  ImageStore& images() { return images_; }
+  const std::filesystem::path& resourceDir() const { return resource_dir_; }
+
+  /// The reference model, read at the first call; from any thread. @throws InputError.
+  std::shared_ptr<const Model> reference();
+  /// The forms of the examination. GUI thread. @throws InputError.
+  const ExamProtocol& protocol();
+  /// The patient's model as far as the case has got; nullptr before the skeleton is fitted. Kept until the results it
+  /// is made from change. GUI thread. @throws InputError.
+  std::shared_ptr<const Model> patientModel();
+
+  /// Runs one stage, or all that wait.
+  void run(std::vector<Stage> stages);
+  void runAll() { run(stagesToRun(document_)); }
+
+  void openCase(const std::filesystem::path& folder);  ///< answers an unusable folder by problem()
+  void saveCase();
+  /// Makes the embedded demo patient in `folder` and opens it.
+  void makeDemo(const std::filesystem::path& folder, bool slot_scan);
+
+ signals:
+  void problem(const QString& message);  ///< one line for the banner
+  void notice(const QString& message);
+
+ private:
+  std::filesystem::path resource_dir_;
+  ReportWriter write_report_;
+  CaseDocument document_;
+  ViewState view_;
+  ImageStore images_;
+  std::mutex reference_mutex_;
+  std::shared_ptr<const Model> reference_;
+  std::optional<ExamProtocol> protocol_;
+  std::string patient_model_key_;
+  std::shared_ptr<const Model> patient_model_;
+  JobRunner jobs_;  ///< last: its thread ends before what it uses goes
+};
+
+}  // namespace sinew
