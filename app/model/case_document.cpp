@@ -6,7 +6,9 @@ namespace sinew {
 
 CaseDocument::CaseDocument(QObject* parent) : QObject{parent} {}
 
-void CaseDocument::open(const std::filesystem::path& folder) { adopt(loadCase(folder), folder); }
+void CaseDocument::open(const std::filesystem::path& folder) {
+  adopt(loadCase(folder), folder);
+}
 
 void CaseDocument::adopt(Case c, const std::filesystem::path& folder) {
   stored_ = c;
@@ -17,7 +19,9 @@ void CaseDocument::adopt(Case c, const std::filesystem::path& folder) {
   emit replaced();
 }
 
-void CaseDocument::close() { adopt(Case{}, {}); }
+void CaseDocument::close() {
+  adopt(Case{}, {});
+}
 
 void CaseDocument::save() {
   require(isOpen(), "no case to save");

@@ -24,7 +24,8 @@ Radiograph halfSize(const Radiograph& radiograph) {
   Radiograph half = radiograph;
   half.width_px = radiograph.width_px / 2;
   half.height_px = radiograph.height_px / 2;
-  auto pixels = std::make_shared<std::vector<std::uint16_t>>(std::size_t(half.width_px) * std::size_t(half.height_px));
+  auto pixels =
+      std::make_shared<std::vector<std::uint16_t>>(std::size_t(half.width_px) * std::size_t(half.height_px));
   for (int v = 0; v < half.height_px; ++v) {
     const std::uint16_t* upper = radiograph.pixels->data() + std::size_t(2 * v) * std::size_t(radiograph.width_px);
     const std::uint16_t* lower = upper + radiograph.width_px;

@@ -58,7 +58,8 @@ bool JobRunner::start(const QString& title, Work work, Finish on_cancel) {
       run->error = QStringLiteral("Internal fault: ") + QString::fromUtf8(error.what());
     }
     run->work = nullptr;  // what it captured goes on this thread
-    QMetaObject::invokeMethod(this, [this, run] { finish(run); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this, run] { finish(run); }, Qt::QueuedConnection);
   }};
   return true;
 }

@@ -28,16 +28,16 @@ class JobRunner : public QObject {
   /// False, and nothing happens, while a computation runs or a cancelled one has not let go of its thread yet.
   /// `on_cancel` runs on the GUI thread instead of Finish when the person cancelled.
   bool start(const QString& title, Work work, Finish on_cancel = {});
-  /// The window has its answer, ended(Cancelled), within kGrace_ms, also if the computation is slow to stop: then it is
-  /// abandoned, and whatever it still returns is dropped.
+  /// The window has its answer, ended(Cancelled), within kGrace_ms, also if the computation is slow to stop: then it
+  /// is abandoned, and whatever it still returns is dropped.
   void cancel();
 
   bool isRunning() const { return shown_; }
   bool isBusy() const { return run_ != nullptr; }  ///< running, or abandoned and still stopping
   const QString& title() const { return title_; }
 
-  static constexpr int kGrace_ms = 120;            ///< with the event loop's share well below 200 ms
-  static constexpr int kReportInterval_ms = 50;    ///< at most 20 reports a second
+  static constexpr int kGrace_ms = 120;          ///< with the event loop's share well below 200 ms
+  static constexpr int kReportInterval_ms = 50;  ///< at most 20 reports a second
 
  signals:
   void started(const QString& title);

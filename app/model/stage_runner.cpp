@@ -16,13 +16,28 @@ struct Progress {
 
 void copyResult(Case& c, const Case& from, Stage stage) {
   switch (stage) {
-    case Stage::Images: c.images = from.images; break;
-    case Stage::Calibration: c.rig = from.rig; break;
-    case Stage::Landmarks: c.landmarks = from.landmarks; break;
-    case Stage::Skeleton: c.skeleton = from.skeleton; break;
-    case Stage::Musculature: c.model = from.model; break;
-    case Stage::Exam: c.exam_fit = from.exam_fit; c.model = from.model; break;
-    case Stage::Report: c.report = from.report; break;
+    case Stage::Images:
+      c.images = from.images;
+      break;
+    case Stage::Calibration:
+      c.rig = from.rig;
+      break;
+    case Stage::Landmarks:
+      c.landmarks = from.landmarks;
+      break;
+    case Stage::Skeleton:
+      c.skeleton = from.skeleton;
+      break;
+    case Stage::Musculature:
+      c.model = from.model;
+      break;
+    case Stage::Exam:
+      c.exam_fit = from.exam_fit;
+      c.model = from.model;
+      break;
+    case Stage::Report:
+      c.report = from.report;
+      break;
   }
   if (const auto record = from.stages.find(stage); record != from.stages.end()) c.stages[stage] = record->second;
 }
@@ -42,8 +57,9 @@ void apply(CaseDocument& document, const std::filesystem::path& folder, Progress
   if (progress.error)
     emit document.rejected(QString::fromStdString(*progress.error));
   else if (taken.size() < progress.ended.size())
-    emit document.rejected(QObject::tr("%1: its inputs changed while it ran, so the result was not used. Run it again.")
-                               .arg(QString::fromStdString(titleOf(progress.ended[taken.size()]))));
+    emit document.rejected(
+        QObject::tr("%1: its inputs changed while it ran, so the result was not used. Run it again.")
+            .arg(QString::fromStdString(titleOf(progress.ended[taken.size()]))));
 }
 
 void compute(Progress& progress, const std::vector<Stage>& stages, const PipelineContext& context, const Job& job) {

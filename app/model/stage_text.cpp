@@ -7,7 +7,9 @@
 namespace sinew {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("stage", text); }
+QString tr(const char* text) {
+  return QCoreApplication::translate("stage", text);
+}
 
 QString plural(std::size_t n, const char* one, const char* many) {
   return QString::number(n) + ' ' + (n == 1 ? tr(one) : tr(many));
@@ -17,8 +19,7 @@ QString landmarkLine(const Case& c) {
   if (c.sightings.empty()) return tr("No landmark placed");
   std::set<std::string> names;
   for (const auto& s : c.sightings) names.insert(s.name);
-  return plural(names.size(), "landmark", "landmarks") + ", " +
-         plural(c.sightings.size(), "sighting", "sightings");
+  return plural(names.size(), "landmark", "landmarks") + ", " + plural(c.sightings.size(), "sighting", "sightings");
 }
 
 QString examLine(const Case& c) {
@@ -29,14 +30,20 @@ QString examLine(const Case& c) {
 
 QString enteredLine(const Case& c, Stage stage) {
   switch (stage) {
-    case Stage::Images: return c.images.empty() ? tr("No image") : plural(c.images.size(), "image", "images");
+    case Stage::Images:
+      return c.images.empty() ? tr("No image") : plural(c.images.size(), "image", "images");
     case Stage::Calibration:
       return c.imported_rig ? tr("Imported geometry") : c.phantom ? tr("Bead phantom") : tr("From the image tags");
-    case Stage::Landmarks: return landmarkLine(c);
-    case Stage::Exam: return examLine(c);
-    case Stage::Skeleton: return tr("Not fitted");
-    case Stage::Musculature: return tr("Not built");
-    case Stage::Report: return tr("Not made");
+    case Stage::Landmarks:
+      return landmarkLine(c);
+    case Stage::Exam:
+      return examLine(c);
+    case Stage::Skeleton:
+      return tr("Not fitted");
+    case Stage::Musculature:
+      return tr("Not built");
+    case Stage::Report:
+      return tr("Not made");
   }
   return {};
 }
@@ -45,12 +52,18 @@ QString enteredLine(const Case& c, Stage stage) {
 
 QString stateTitle(StageState state) {
   switch (state) {
-    case StageState::Missing: return tr("To enter");
-    case StageState::Blocked: return tr("Waiting");
-    case StageState::Ready: return tr("Ready");
-    case StageState::Stale: return tr("Out of date");
-    case StageState::Done: return tr("Done");
-    case StageState::Failed: return tr("Failed");
+    case StageState::Missing:
+      return tr("To enter");
+    case StageState::Blocked:
+      return tr("Waiting");
+    case StageState::Ready:
+      return tr("Ready");
+    case StageState::Stale:
+      return tr("Out of date");
+    case StageState::Done:
+      return tr("Done");
+    case StageState::Failed:
+      return tr("Failed");
   }
   return {};
 }
@@ -66,15 +79,23 @@ QString stateExplanation(StageState state, Stage stage) {
   switch (state) {
     case StageState::Missing:
       switch (stage) {
-        case Stage::Images: return tr("Add a frontal and a lateral radiograph.");
-        case Stage::Landmarks: return tr("Place landmarks in both radiographs.");
-        case Stage::Exam: return tr("Enter at least one measured angle.");
-        default: return tr("Nothing has been entered for this stage.");
+        case Stage::Images:
+          return tr("Add a frontal and a lateral radiograph.");
+        case Stage::Landmarks:
+          return tr("Place landmarks in both radiographs.");
+        case Stage::Exam:
+          return tr("Enter at least one measured angle.");
+        default:
+          return tr("Nothing has been entered for this stage.");
       }
-    case StageState::Blocked: return tr("An earlier stage must be done first.");
-    case StageState::Stale: return tr("The inputs changed since this was computed. Run the stage again.");
-    case StageState::Failed: return tr("The last run did not reach a result.");
-    default: return {};
+    case StageState::Blocked:
+      return tr("An earlier stage must be done first.");
+    case StageState::Stale:
+      return tr("The inputs changed since this was computed. Run the stage again.");
+    case StageState::Failed:
+      return tr("The last run did not reach a result.");
+    default:
+      return {};
   }
 }
 
@@ -84,12 +105,23 @@ QString spacingText(const Radiograph& radiograph) {
   const auto& s = *radiograph.spacing;
   QString source;
   switch (s.source) {
-    case PixelScaleSource::Fiducial: source = tr("by a fiducial"); break;
-    case PixelScaleSource::Geometry: source = tr("by the geometry"); break;
-    case PixelScaleSource::Declared: source = tr("as declared"); break;
-    case PixelScaleSource::ImagerMagnified: source = tr("at the patient, by magnification"); break;
-    case PixelScaleSource::ImagerAtDetector: source = tr("at the detector"); break;
-    case PixelScaleSource::None: break;
+    case PixelScaleSource::Fiducial:
+      source = tr("by a fiducial");
+      break;
+    case PixelScaleSource::Geometry:
+      source = tr("by the geometry");
+      break;
+    case PixelScaleSource::Declared:
+      source = tr("as declared");
+      break;
+    case PixelScaleSource::ImagerMagnified:
+      source = tr("at the patient, by magnification");
+      break;
+    case PixelScaleSource::ImagerAtDetector:
+      source = tr("at the detector");
+      break;
+    case PixelScaleSource::None:
+      break;
   }
   return QStringLiteral("%1 × %2 mm, %3").arg(s.column_mm, 0, 'f', 3).arg(s.row_mm, 0, 'f', 3).arg(source);
 }
@@ -105,7 +137,9 @@ QString readableName(const std::string& name) {
   return text + side;
 }
 
-QString sideName(std::string_view side) { return side == "r" ? tr("right") : side == "l" ? tr("left") : QString{}; }
+QString sideName(std::string_view side) {
+  return side == "r" ? tr("right") : side == "l" ? tr("left") : QString{};
+}
 
 QString figure(double value, int decimals) {
   if (!std::isfinite(value)) return QStringLiteral("–");
