@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "clinical/pixel_field.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/geometry/view.h"
 #include "core/job.h"
@@ -21,9 +22,6 @@ struct XrayBall {
   double radius_m = 0;
   double contrast_per_m = 0;
 };
-
-/// One float a pixel, row by row from the top left.
-using PixelField = std::vector<float>;
 
 /// Sum over all bodies of contrast times length of the pixel's ray inside: the exponent of Beer-Lambert, without
 /// unit. Every triangle is drawn once per view: what leaves the body adds the distance along the ray, what enters
