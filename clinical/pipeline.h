@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clinical/case.h"
@@ -16,17 +17,27 @@ struct PipelineContext {
   std::filesystem::path case_dir;
   const Model* reference = nullptr;
   /// Writes the report PDF; supplied by the application, because it draws. Empty: the report stage says so and fails.
-  std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)> write_report;
+  std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)>
+      write_report;
 };
 
 enum class StageState { Missing, Blocked, Ready, Stale, Done, Failed };
-std::string nameOf(StageState state);
+std::string nameOf(StageState state);  ///< "missing", ...
 
-/// State of a stage: Missing = nothing entered for it, Blocked = an earlier stage is not done, Ready = can run, Stale =
-/// ran from other inputs than today's, Done, Failed (ran and did not converge).
+/// State of a stage. Missing = nothing entered for it; Blocked = an earlier stage is not done, and this one has not
+/// run; Ready = can run; Stale = ran from other inputs than today's, or an earlier stage is not done any more; Done;
+/// Failed = ran from today's inputs and did not converge. A cancelled stage is Ready, or Stale if an earlier result
+/// is kept.
 StageState stateOf(const Case& c, Stage stage);
 
-/// Hash of everything the stage reads, today.
+/// Code of the warning that the landmarks stage leaves if none of the points belongs to the skeleton.
+inline constexpr std::string_view kNoKnownLandmarks = "no_known_landmarks";
+
+/// What is to be entered before the stage can run, in words for a person; empty if nothing is missing.
+std::string missingInput(const Case& c, Stage stage);
+
+/// Hash of everything the stage reads, today: entered data, files by their hashes, results of earlier stages, and the
+/// revision of the stage's method.
 std::string inputHash(const Case& c, Stage stage);
 
 /// Runs one stage from the stored inputs; returns the case with result and record. Pure but for files below

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/skeleton/population.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -9,9 +10,7 @@ namespace {
 
 /// Name of a parameter in files: angles carry their unit.
 std::string fileName(const std::string& parameter) {
-  const bool angle = std::ranges::any_of(std::array{".torsion", ".neck_shaft", ".varus", ".bend"},
-                                         [&](const char* ending) { return parameter.ends_with(ending); });
-  return angle ? parameter + "_rad" : parameter;
+  return isShapeAngle(parameter) ? parameter + "_rad" : parameter;
 }
 
 }  // namespace
