@@ -17,13 +17,17 @@ std::string trimmed(std::string_view s) {
   return std::string{s.substr(first, s.find_last_not_of(" \t\r\n") - first + 1)};
 }
 
+/// What it takes to make b of a. Writing more is cheap: a name that was cut short ("soleus_r" for "soleus_medial_r")
+/// is nearer than one of the same length with other letters.
 std::size_t editDistance(std::string_view a, std::string_view b) {
+  constexpr std::size_t kChange = 5;
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
+    std::size_t diagonal = std::exchange(row[0], kChange * i);
     for (std::size_t j = 1; j <= b.size(); ++j)
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
+      diagonal = std::exchange(
+          row[j], std::min({row[j] + kChange, row[j - 1] + 1, diagonal + kChange * (a[i - 1] != b[j - 1])}));
   }
   return row.back();
 }

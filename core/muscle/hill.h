@@ -4,7 +4,9 @@ namespace sinew {
 
 // Hill-type muscle of Thelen 2003 (J Biomech Eng 125:70-77), quasi-static, constant pennation:
 //   F = F_max (a f_CE(l) + f_PE(l)) cos(pennation) = F_max f_SE(l_t / l_slack),   l = fibre length / optimal length.
-// Every curve is C1 and comes with its derivative.
+// Every curve is C1 and comes with its derivative: where the published one has a corner (onset of passive and tendon
+// force, isometric point and both ends of force-velocity) a cubic over the next few per cent of its range rounds it
+// off; elsewhere the values are the published ones. See docs/methods/muscle_model.md.
 
 struct CurveValue {
   double value = 0;
@@ -18,21 +20,31 @@ CurveValue passiveForceLength(double normalized_fiber_length);
 /// Tendon force-strain: exponential toe then linear; 0 for l_t <= l_slack, 1 at strain 0.033.
 CurveValue tendonForceLength(double normalized_tendon_length);
 /// Force-velocity factor, velocity in optimal fibre lengths per second, lengthening positive; v_max = 10 / s.
-double forceVelocity(double normalized_fiber_velocity, double activation = 1);
+/// 0 at and beyond the fastest shortening, 1 isometric, towards 1.4 in lengthening.
+CurveValue forceVelocity(double normalized_fiber_velocity, double activation = 1);
 
 struct MusculotendonUnit;
+
+/// Shortest fibre, in optimal lengths, that still turns tension into force; a fibre never gets shorter in the model.
+inline constexpr double kShortestFiber = 0.2;
 
 /// Static equilibrium of fibre and tendon.
 struct FiberState {
   double fiber_length_m = 0;
   double tendon_length_m = 0;
   double normalized_fiber_length = 0;
-  double force_N = 0;          ///< along the tendon
-  double active_force_N = 0;   ///< share of the active element
-  bool slack = false;          ///< the path is shorter than the slack tendon and fibre: no force
+  double force_N = 0;         ///< along the tendon
+  double active_force_N = 0;  ///< share of the active element
+  bool slack = false;         ///< the path is too short to be pulled tight: no force
 };
 
-/// Equilibrium at a path length and an activation in [0, 1]. Never lets a fibre length <= 0 into the curves.
+/// Equilibrium at a path length and an activation in [0, 1]. Never lets a fibre length <= 0 into the curves: the
+/// fibre stops at kShortestFiber; what the path is shorter then is slack tendon. The force is continuous in both
+/// arguments.
 FiberState equilibrium(const MusculotendonUnit& unit, double musculotendon_length_m, double activation);
+
+/// Longest length that the unit allows, 1.6 l0 + 1.03 l_slack (Ryu et al., Muscle-induced range of motion): its fibre
+/// is at the strain where passive force reaches F_max.
+double longestLength_m(const MusculotendonUnit& unit);
 
 }  // namespace sinew

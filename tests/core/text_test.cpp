@@ -19,6 +19,11 @@ TEST(NearestNames, PutsTheTypoFirst) {
   EXPECT_EQ(nearestNames("knee_flexoin_r", known, 1).front(), "knee_flexion_r");
 }
 
+TEST(NearestNames, CompletesANameThatWasCutShort) {
+  const std::vector<std::string> known{"popliteus_r", "sartorius_r", "soleus_medial_r"};
+  EXPECT_EQ(nearestNames("soleus_r", known, 1).front(), "soleus_medial_r");
+}
+
 TEST(ParseNumber, AcceptsNumbersAndNamesTheFieldOtherwise) {
   EXPECT_DOUBLE_EQ(parseNumber(" -1.5e2 ", "f", "x"), -150);
   for (const char* bad : {"", "12a", "nan", "inf", "1,5"}) {

@@ -6,6 +6,9 @@ namespace sinew::test {
 
 inline std::filesystem::path resourceDir() { return SINEW_RESOURCE_DIR; }
 
+/// Tables that tests compare with; part of the repository.
+inline std::filesystem::path testDataDir() { return SINEW_TEST_DATA_DIR; }
+
 /// Folder of real files that are not part of the product; tests skip with a message when it is absent.
 inline std::filesystem::path externalData() {
   const char* set = std::getenv("SINEW_EXTERNAL_DATA");

@@ -1,0 +1,50 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/muscle/musculature.h"
+#include "core/skeleton/joint_motion.h"
+#include "core/skeleton/kinematics.h"
+
+namespace sinew {
+
+// Quantities of all units at a posture, and of one unit over a joint motion: what `sinew evaluate`, `sinew curve`,
+// plots and reports show. Vectors by unit follow Musculature::units, by coordinate Skeleton::coordinates.
+
+/// A unit that is stretched beyond its longest length (negative margin), or how much is left.
+struct LengthMargin {
+  int unit = -1;
+  double margin_m = 0;  ///< longest minus present path length
+};
+
+struct PostureEvaluation {
+  Eigen::VectorXd length_m;                 ///< path length by unit
+  Eigen::MatrixXd moment_arm_m;             ///< unit x clinical coordinate; positive = the unit increases it
+  Eigen::VectorXd normalized_fiber_length;  ///< passive equilibrium, by unit
+  Eigen::VectorXd passive_force_N;          ///< along the tendon, by unit
+  Eigen::VectorXd passive_torque;           ///< sum over the units, by clinical coordinate [N m; N for translations]
+  bool valid = false;  ///< no unit beyond its longest length, no coordinate beyond its athlete envelope
+  std::vector<LengthMargin> margins;  ///< smallest first
+  std::vector<std::string> coordinates_beyond_envelope;
+};
+
+/// Everything at one posture.
+PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture);
+
+/// One unit over a joint motion, sampled evenly in theta.
+struct MotionCurve {
+  std::vector<double> theta;  ///< 0 .. 1
+  std::vector<double> angle_deg;
+  std::vector<double> length_m;
+  std::vector<double> moment_arm_m;             ///< about the moved coordinate, positive = increases it
+  std::vector<double> normalized_fiber_length;  ///< passive
+  std::vector<double> passive_force_N;
+  std::vector<double> active_force_N;  ///< share of the active element at full activation
+  std::vector<double> full_torque_Nm;  ///< about the moved coordinate at full activation, passive share included
+};
+/// @param samples at least 2 (a bug of the caller otherwise).
+MotionCurve motionCurve(const Skeleton& skeleton, const MusculotendonUnit& unit, const JointMotion& motion,
+                        int samples = 101);
+
+}  // namespace sinew

@@ -1,0 +1,91 @@
+#include "core/rom/length_estimation.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/muscle/hill.h"
+#include "core/muscle/load_musculature.h"
+#include "core/muscle/muscle_path.h"
+#include "core/rom/pose_sample.h"
+
+namespace sinew {
+namespace {
+
+using Poses = std::vector<RigidTransform>;
+
+MusculotendonUnit scaled(MusculotendonUnit unit, double scale) {
+  unit.optimal_fiber_length_m *= scale;
+  unit.tendon_slack_length_m *= scale;
+  return unit;
+}
+
+double passiveForceShare(const MusculotendonUnit& unit, double path_m) {
+  return equilibrium(unit, path_m, 0).force_N / unit.max_isometric_force_N;
+}
+
+/// Smallest scale >= `from` at which the unit rests at this path length.
+double relaxedScale(const MusculotendonUnit& unit, double path_m, double from, double allowed_share) {
+  double low = from, high = from;
+  while (passiveForceShare(scaled(unit, high), path_m) > allowed_share) high *= 1.5;
+  while (high - low > 1e-9 * high) {
+    const double middle = 0.5 * (low + high);
+    (passiveForceShare(scaled(unit, middle), path_m) > allowed_share ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
+                                            std::span<const Posture> postures, std::span<const Posture> resting,
+                                            const LengthEstimationOptions& options) {
+  require(!postures.empty() && !resting.empty(), "estimateLengths: postures are given");
+  std::vector<LengthEstimate> estimates(musculature.units.size());
+  for (const Posture& q : postures) {
+    const Poses X_WB = segmentPoses(skeleton, q);
+    for (std::size_t i = 0; i < estimates.size(); ++i)
+      estimates[i].longest_path_m = std::max(estimates[i].longest_path_m, pathLength(musculature.units[i], X_WB));
+  }
+  std::vector<Poses> resting_poses;
+  for (const Posture& q : resting) resting_poses.push_back(segmentPoses(skeleton, q));
+
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const MusculotendonUnit& unit = musculature.units[i];
+    LengthEstimate& e = estimates[i];
+    e.unit = unit.name;
+    const double covering = e.longest_path_m / longestLength_m(unit);
+    e.scale = covering;
+    for (const Poses& X_WB : resting_poses)
+      e.scale = relaxedScale(unit, pathLength(unit, X_WB), e.scale, options.resting_force_share);
+    e.relaxed = e.scale > covering * (1 + 1e-6);
+    const MusculotendonUnit sized = scaled(unit, e.scale);
+    e.optimal_fiber_length_m = sized.optimal_fiber_length_m;
+    e.tendon_slack_length_m = sized.tendon_slack_length_m;
+    e.resting_normalized_fiber =
+        equilibrium(sized, pathLength(unit, resting_poses.front()), 0).normalized_fiber_length;
+  }
+  return estimates;
+}
+
+std::string referenceLengthsCsv(const std::filesystem::path& resource_dir) {
+  const Skeleton skeleton = loadReferenceSkeleton(resource_dir);
+  Musculature musculature = loadPublishedMusculature(resource_dir, skeleton);
+  std::erase_if(musculature.units, [](const MusculotendonUnit& unit) { return unit.name.ends_with("_l"); });
+  const auto estimates = estimateLengths(skeleton, musculature, normalPostures(skeleton), restingPostures(skeleton));
+  std::string csv =
+      "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv and the "
+      "skeleton: longest path over normal postures, published fibre : tendon ratio, no pull at rest\n"
+      "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,scale_of_published,relaxed,"
+      "standing_normalized_fiber_length\n";
+  for (const LengthEstimate& e : estimates) {
+    char line[256];
+    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%s,%.3f\n", e.unit.c_str(), e.optimal_fiber_length_m,
+                  e.tendon_slack_length_m, e.longest_path_m, e.scale, e.relaxed ? "yes" : "no",
+                  e.resting_normalized_fiber);
+    csv += line;
+  }
+  return csv;
+}
+
+}  // namespace sinew

@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/muscle/musculature.h"
+#include "core/skeleton/kinematics.h"
+
+namespace sinew {
+
+// Fibre and tendon lengths from what the body can do (Ryu et al., Length estimation): the longest length of a unit,
+// 1.6 l0 + 1.03 l_slack, is the longest path over all postures; the published fibre : tendon ratio is kept. A path
+// that is long at rest too would then pull at rest; such a unit is lengthened, ratio kept, until its passive force in
+// every resting posture is below a small share of F_max. See docs/methods/muscle_model.md.
+
+struct LengthEstimate {
+  std::string unit;
+  double optimal_fiber_length_m = 0;
+  double tendon_slack_length_m = 0;
+  double longest_path_m = 0;            ///< over the postures
+  double scale = 1;                     ///< against the given lengths
+  bool relaxed = false;                 ///< lengthened for a resting posture
+  double resting_normalized_fiber = 0;  ///< in the first resting posture
+};
+
+struct LengthEstimationOptions {
+  double resting_force_share = 0.008;  ///< of F_max; the fibre is then at 1.09 l0
+};
+
+/// One estimate a unit, in the order of `musculature`; postures and resting postures may not be empty.
+std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
+                                            std::span<const Posture> postures, std::span<const Posture> resting,
+                                            const LengthEstimationOptions& options = {});
+
+/// The estimates of the reference's right side, as muscles/reference_lengths.csv holds them.
+std::string referenceLengthsCsv(const std::filesystem::path& resource_dir);
+
+}  // namespace sinew

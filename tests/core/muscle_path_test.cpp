@@ -1,0 +1,135 @@
+#include "core/muscle/muscle_path.h"
+
+#include <gtest/gtest.h>
+
+#include "core/muscle/load_musculature.h"
+#include "core/skeleton/clinical_angles.h"
+#include "tests/support/postures.h"
+#include "tests/support/resources.h"
+
+namespace sinew {
+namespace {
+
+const Skeleton& skeleton() {
+  static const Skeleton loaded = loadReferenceSkeleton(test::resourceDir());
+  return loaded;
+}
+const Musculature& musculature() {
+  static const Musculature loaded = loadMusculature(test::resourceDir(), skeleton());
+  return loaded;
+}
+
+TEST(MusclePath, LengthIsThatOfThePolylineThroughThePoints) {
+  const auto X_WB = segmentPoses(skeleton(), zeroPosture(skeleton()));
+  for (const auto& unit : musculature().units) {
+    const auto points = pathPoints(unit, X_WB);
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    EXPECT_NEAR(pathLength(unit, X_WB), length, 1e-15);
+  }
+}
+
+TEST(MusclePath, ABlendedPointLiesBetweenItsAnchors) {
+  MusculotendonUnit unit;
+  unit.path = {{PathPointRole::Origin, {{0, 0.25, {1, 0, 0}}, {1, 0.75, {0, 1, 0}}}, "", ""},
+               {PathPointRole::Insertion, {{0, 1, {0, 0, 0}}}, "", ""}};
+  std::vector<RigidTransform> X_WB(2, RigidTransform::Identity());
+  X_WB[1].translation() = Eigen::Vector3d{0, 0, 4};
+  EXPECT_TRUE(pathPoints(unit, X_WB)[0].isApprox(Eigen::Vector3d{0.25, 0.75, 3}));
+  EXPECT_NEAR(pathLength(unit, X_WB), std::sqrt(0.0625 + 0.5625 + 9), 1e-15);
+}
+
+TEST(MusclePath, GradientIsTheDerivativeOfLengthAtRandomPostures) {
+  std::mt19937_64 random{7};
+  constexpr double h = 1e-5;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Posture q = postureFromClinical(skeleton(), test::randomClinical(skeleton(), random));
+    const Kinematics k = kinematics(skeleton(), q);
+    Eigen::MatrixXd difference(musculature().units.size(), q.size());
+    for (int c = 0; c < q.size(); ++c) {
+      Posture plus = q, minus = q;
+      plus[c] += h;
+      minus[c] -= h;
+      const auto X_plus = segmentPoses(skeleton(), plus), X_minus = segmentPoses(skeleton(), minus);
+      for (std::size_t u = 0; u < musculature().units.size(); ++u)
+        difference(static_cast<Eigen::Index>(u), c) =
+            (pathLength(musculature().units[u], X_plus) - pathLength(musculature().units[u], X_minus)) / (2 * h);
+    }
+    for (std::size_t u = 0; u < musculature().units.size(); ++u) {
+      const Eigen::VectorXd gradient = lengthGradient(musculature().units[u], k);
+      ASSERT_EQ(gradient.size(), q.size());
+      // Moment arms are some centimetres: 1e-7 of 0.1 m; central differences at 1e-5 rad are good to about 1e-10.
+      const double error =
+          (gradient - difference.row(static_cast<Eigen::Index>(u)).transpose()).cwiseAbs().maxCoeff();
+      EXPECT_LT(error, 1e-8 + 1e-7 * gradient.cwiseAbs().maxCoeff()) << musculature().units[u].name;
+    }
+  }
+}
+
+/// Work is conserved: the pulls of a unit's tension on every segment, carried to the coordinates by point Jacobians,
+/// are -f dl/dq, for blended points and driven segments too.
+TEST(MusclePath, ForcesOnTheSegmentsDoTheWorkOfTheLength) {
+  std::mt19937_64 random{11};
+  for (int trial = 0; trial < 5; ++trial) {
+    const Posture q = postureFromClinical(skeleton(), test::randomClinical(skeleton(), random));
+    const Kinematics k = kinematics(skeleton(), q);
+    for (const auto& unit : musculature().units) {
+      const auto points = pathPoints(unit, k.X_WB);
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(q.size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        Eigen::Vector3d pull = Eigen::Vector3d::Zero();  // of a tension of 1 N, towards both neighbours
+        if (i > 0) pull += (points[i - 1] - points[i]).normalized();
+        if (i + 1 < points.size()) pull += (points[i + 1] - points[i]).normalized();
+        for (const Anchor& a : unit.path[i].anchors)
+          load += a.weight * pointJacobian(skeleton(), k, a.segment, a.p_B).transpose() * pull;
+      }
+      EXPECT_LT((load + lengthGradient(unit, k)).cwiseAbs().maxCoeff(), 1e-12) << unit.name;
+    }
+  }
+}
+
+TEST(MusclePath, PassiveLoadsIgnoreWhereTheBodyStands) {
+  std::mt19937_64 random{13};
+  const Kinematics k =
+      kinematics(skeleton(), postureFromClinical(skeleton(), test::randomClinical(skeleton(), random)));
+  for (const auto& unit : musculature().units)
+    EXPECT_LT(lengthGradient(unit, k).head(6).cwiseAbs().maxCoeff(), 1e-12) << unit.name;  // root: no net pull
+}
+
+TEST(MusclePath, LeftIsTheMirrorImageOfRight) {
+  std::mt19937_64 random{17};
+  const std::size_t half = musculature().units.size() / 2;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::VectorXd clinical = test::randomClinical(skeleton(), random);
+    const auto X_right = segmentPoses(skeleton(), postureFromClinical(skeleton(), clinical));
+    const auto X_left =
+        segmentPoses(skeleton(), postureFromClinical(skeleton(), test::mirroredClinical(skeleton(), clinical)));
+    for (std::size_t i = 0; i < half; ++i) {
+      const auto& right = musculature().units[i];
+      const auto& left = musculature().units[half + i];
+      ASSERT_EQ(withoutSide(left.name), withoutSide(right.name));
+      EXPECT_NEAR(pathLength(right, X_right), pathLength(left, X_left), 1e-9) << right.name;
+      EXPECT_NEAR(pathLength(left, X_right), pathLength(right, X_left), 1e-9) << right.name;
+    }
+  }
+}
+
+TEST(MusclePath, RevoluteMomentArmIsTheLeverOfTheLineOfAction) {
+  // Vastus-like line over a hinge: the paper's moment arm, force x lever about the axis, equals -dl/dq.
+  const Posture q = postureFromDegrees(skeleton(), {{"knee_flexion_r", 40}, {"hip_flexion_r", 20}});
+  const Kinematics clinical = clinicalKinematics(skeleton(), q);
+  const int knee = skeleton().coordinateIndex("knee_flexion_r");
+  const Joint& joint = skeleton().joints[skeleton().jointIndex("knee_r")];
+  const RigidTransform X_WJ = clinical.X_WB[joint.parent] * joint.X_PJ;
+  const Eigen::Vector3d axis_W = X_WJ.linear() * skeleton().coordinates[knee].axis;
+  for (const auto* name : {"biceps_femoris_short_head_r", "biceps_femoris_long_head_r", "semimembranosus_r"}) {
+    const auto& unit = musculature().unit(name);
+    const auto points = pathPoints(unit, clinical.X_WB);
+    const Eigen::Vector3d pull = (points[points.size() - 2] - points.back()).normalized();
+    const double lever = axis_W.dot((points.back() - X_WJ.translation()).cross(pull));
+    EXPECT_NEAR(momentArms(unit, clinical)[knee], lever, 1e-9) << name;
+  }
+}
+
+}  // namespace
+}  // namespace sinew
