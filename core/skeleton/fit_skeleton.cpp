@@ -1,0 +1,157 @@
+#include "core/skeleton/fit_skeleton.h"
+
+#include <ceres/crs_matrix.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/ceres_job_internal.h"
+#include "core/skeleton/bone_figures_internal.h"
+#include "core/skeleton/fit_report_internal.h"
+#include "core/skeleton/fit_residuals.h"
+#include "core/skeleton/fit_start_internal.h"
+
+namespace sinew {
+namespace {
+
+/// The fit as a computation: the unknowns are added stage by stage, so that a wrong start of one does not bend
+/// another.
+class SkeletonFitter {
+ public:
+  SkeletonFitter(const Skeleton& reference, std::span<const View> views, std::span<const ShapePrior> priors,
+                 const FitOptions& options, const Job& job, SightingList sightings)
+      : reference_{reference},
+        views_{views},
+        options_{options},
+        job_{job},
+        sightings_{std::move(sightings)},
+        body_{reference, priors},
+        z_{Eigen::VectorXd::Zero(body_.count())} {}
+
+  SkeletonFit run() {
+    SkeletonFit fit;
+    fit.warnings = sightings_.warnings;
+    start();
+    const std::vector<int> observable = observableUnknowns();
+    const auto up_to = [&](auto keep) {
+      std::vector<int> some;
+      std::ranges::copy_if(observable, std::back_inserter(some), keep);
+      return some;
+    };
+    const int posture = body_.postureBegin();
+    solve(up_to([&](int i) { return i == BodyParameters::kSize || (i >= posture && i < posture + 6); }), 0, 0.2);
+    if (!job_.cancelled()) solve(up_to([&](int i) { return i == BodyParameters::kSize || i >= posture; }), 0.2, 0.5);
+    fit.outcome = job_.cancelled() ? Outcome::Cancelled : solve(observable, 0.5, 1);
+    if (fit.outcome != Outcome::Converged) return fit;
+    describe(fit);
+    return fit;
+  }
+
+ private:
+  void start() {
+    const auto at_mean = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
+    std::vector<StartSighting> seen;
+    for (const auto& s : sightings_.items) seen.push_back({s.point, s.view, s.uv_px, s.sigma_px});
+    const Similarity similarity = startOfFit(at_mean, views_, seen, 1);
+    // The root turns about the pelvis' origin, which stands at the root joint's place in the zero posture.
+    const Eigen::Vector3d pelvis = reference_.joints.front().X_PJ.translation();
+    body_.setRootStart(similarity.scale * similarity.R * pelvis + similarity.t - pelvis,
+                       vectorFromRotation(similarity.R));
+    const int i = BodyParameters::kSize;
+    z_[i] = std::clamp(body_.zOfSize(body_.meanSize() * similarity.scale), body_.lower(i), body_.upper(i));
+  }
+
+  /// Entries of z that move any seen landmark, judged at a body away from the symmetric mean.
+  std::vector<int> observableUnknowns() const {
+    Eigen::VectorXd z = z_;
+    for (int i = 0; i < z.size(); ++i) z[i] += 0.1 * std::sin(1.0 + i);
+    std::vector<int> all(body_.count());
+    for (int i = 0; i < body_.count(); ++i) all[i] = i;
+    const PosedPoints points = posePoints(reference_, body_, sightings_.landmarks, z, all);
+    std::vector<int> observable;
+    constexpr double kMoves_m = 1e-9;  // per SD of the population
+    for (const int i : all)
+      if (std::ranges::any_of(points.dp_dz, [&](const auto& dp) { return dp.col(i).norm() > kMoves_m; }))
+        observable.push_back(i);
+    return observable;
+  }
+
+  Outcome solve(const std::vector<int>& active, double from, double to) {
+    SharedBody shared{reference_, body_, sightings_.landmarks, active, z_};
+    ceres::Problem::Options problem_options;
+    problem_options.evaluation_callback = &shared;
+    ceres::Problem problem{problem_options};
+    for (const auto& s : sightings_.items)
+      problem.AddResidualBlock(new SightingCost{shared, s.point, views_[s.view], s.uv_px, s.sigma_px},
+                               new ceres::HuberLoss{options_.robust_loss_sigma}, shared.x());
+    std::vector<double> weights;
+    for (const int i : active) weights.push_back(body_.priorWeight(i));
+    problem.AddResidualBlock(new PriorCost{weights}, nullptr, shared.x());
+    for (int i = 0; i < shared.activeCount(); ++i) {
+      problem.SetParameterLowerBound(shared.x(), i, body_.lower(active[i]));
+      problem.SetParameterUpperBound(shared.x(), i, body_.upper(active[i]));
+    }
+    CeresJob monitor{job_, "fit", options_.max_iterations, from, to};
+    auto solver = solverOptions(monitor, options_.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
+    solver.function_tolerance = 1e-8;  // a hundredth of a thousandth of an SD
+    solver.parameter_tolerance = 1e-9;
+    solver.gradient_tolerance = 1e-9;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+    z_ = shared.z();
+    const Outcome outcome = outcomeOf(summary);
+    if (outcome == Outcome::Converged) rememberCovariance(problem, active);
+    return outcome;
+  }
+
+  /// Inverse of the normal matrix at the solution, priors included: the Laplace approximation of the posterior.
+  /// What no sighting moves keeps the prior's variance.
+  void rememberCovariance(ceres::Problem& problem, const std::vector<int>& active) {
+    ceres::CRSMatrix jacobian;
+    problem.Evaluate(ceres::Problem::EvaluateOptions{}, nullptr, nullptr, nullptr, &jacobian);
+    const Eigen::Index n = static_cast<Eigen::Index>(active.size());
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J{
+        jacobian.values.data(), jacobian.num_rows, n};
+    const Eigen::MatrixXd inverse = (J.transpose() * J).llt().solve(Eigen::MatrixXd::Identity(n, n));
+    covariance_ = Eigen::MatrixXd::Zero(body_.count(), body_.count());
+    for (int i = 0; i < body_.count(); ++i) covariance_(i, i) = 1 / std::pow(body_.priorWeight(i), 2);
+    for (Eigen::Index r = 0; r < n; ++r)
+      for (Eigen::Index c = 0; c < n; ++c) covariance_(active[r], active[c]) = inverse(r, c);
+  }
+
+  void describe(SkeletonFit& fit) const {
+    std::vector<double> shape, q;
+    body_.expand<double>({z_.data(), static_cast<std::size_t>(z_.size())}, shape, q);
+    fit.shape = shapeFromVector(shape);
+    fit.posture = Eigen::Map<Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
+    describeResiduals(sightings_, views_, points, fit);
+    const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
+    fit.undetermined = namesOf(reference_, body_, covariance_, options_.undetermined_ratio);
+    fit.figures = figuresWithIntervals(reference_, body_, z_, covariance_, undetermined);
+    warnOfBounds(body_, z_, fit.warnings);
+  }
+
+  const Skeleton& reference_;
+  std::span<const View> views_;
+  const FitOptions& options_;
+  const Job& job_;
+  SightingList sightings_;
+  BodyParameters body_;
+  Eigen::VectorXd z_;
+  Eigen::MatrixXd covariance_;
+};
+
+}  // namespace
+
+SkeletonFit fitSkeleton(const Skeleton& reference, std::span<const View> views,
+                        std::span<const LandmarkObservation> observations, std::span<const ShapePrior> priors,
+                        const FitOptions& options, const Job& job) {
+  SightingList sightings = usableSightings(reference, views, observations);
+  return SkeletonFitter{reference, views, priors, options, job, std::move(sightings)}.run();
+}
+
+}  // namespace sinew
