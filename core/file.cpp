@@ -51,7 +51,7 @@ std::string readFile(const std::filesystem::path& file, std::uintmax_t max_bytes
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) throw InputError{{file.string(), "", "a file", "a folder"}};
   std::ifstream in{file, std::ios::binary};
-  if (!in) throw InputError{file.string() + ": cannot be opened"};
+  if (!in) throw InputError{{file.string(), "", "a file that can be read", std::strerror(errno)}};
   const auto size = std::filesystem::file_size(file, error);
   if (!error && size > max_bytes)
     throw InputError{

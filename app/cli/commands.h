@@ -1,0 +1,26 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "app/cli/session.h"
+
+namespace sinew {
+
+/// The parser, what the commands work with, and what the chosen one does. A command adds itself to the parser with
+/// addCommand() and keeps its options in a shared structure that its action owns.
+struct Commands {
+  CLI::App& app;
+  Session& session;
+  std::function<ExitStatus()> chosen;
+};
+
+/// A command with its description, and an example at the end of its help.
+CLI::App& addCommand(CLI::App& parent, const std::string& name, const std::string& description,
+                     const std::string& example);
+
+// One function a file of this folder.
+void addRigCommands(Commands& commands);
+void addTriangulateCommand(Commands& commands);
+
+}  // namespace sinew

@@ -1,0 +1,139 @@
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "app/cli/commands.h"
+#include "app/cli/text_table.h"
+#include "core/text.h"
+#include "imaging/biplanar_rig.h"
+#include "imaging/biplanar_rig_json.h"
+
+namespace sinew {
+namespace {
+
+constexpr double kMm = 1000, kDeg = 180 / std::numbers::pi;
+
+/// Properties of a view in words and numbers, with their unit in the name: for JSON and for people.
+Json describe(const View& view) {
+  Json json{{"projection", projectionName(view)}, {"width_px", view.width_px}, {"height_px", view.height_px}};
+  if (const auto* c = std::get_if<ConeBeam>(&view.projection)) {
+    json["focal_length_px"] = {c->fx_px, c->fy_px};
+    json["principal_point_px"] = {c->cx_px, c->cy_px};
+    const Eigen::Vector3d source_W = -view.R_CW.transpose() * view.p_CW;
+    json["source_W_mm"] = {kMm * source_W.x(), kMm * source_W.y(), kMm * source_W.z()};
+  } else if (const auto* s = std::get_if<SlotScan>(&view.projection)) {
+    json["source_to_isocenter_mm"] = kMm * s->source_to_isocenter_m;
+    json["spacing_mm"] = {kMm * s->column_spacing_m, kMm * s->row_spacing_m};
+  } else if (const auto* o = std::get_if<Orthographic>(&view.projection)) {
+    json["spacing_mm"] = {kMm * o->column_spacing_m, kMm * o->row_spacing_m};
+  }
+  return json;
+}
+
+Json rigInfo(const BiplanarRig& rig) {
+  return {{"format", "sinew.rig_info"},
+          {"version", 1},
+          {"method", rig.calibration.method},
+          {"id", rig.calibration.id},
+          {"patient_aligned", rig.patient_aligned},
+          {"rms_px", numberOrNull(rig.calibration.rms_px)},
+          {"accuracy_mm", numberOrNull(rig.calibration.accuracy_mm)},
+          {"angle_between_views_deg", kDeg * angleBetweenViews_rad(rig)},
+          {"views", {describe(rig.views[0]), describe(rig.views[1])}},
+          {"warnings", warningsToJson(rig.calibration.warnings)}};
+}
+
+std::string rigText(const BiplanarRig& rig) {
+  const auto& record = rig.calibration;
+  std::string text = "calibration  " + record.method + ", id " + record.id;
+  text += ", reprojection RMS " + (std::isfinite(record.rms_px) ? fixed(record.rms_px, 2) + " px" : "not stated");
+  text += ", accuracy " + (std::isfinite(record.accuracy_mm) ? fixed(record.accuracy_mm, 2) + " mm" : "not stated");
+  text += "\nworld        " + std::string(rig.patient_aligned ? "aligned with the patient (X anterior, Y up, Z right)"
+                                                              : "frame of the calibration, not the patient's");
+  text += "\nviews        " + fixed(kDeg * angleBetweenViews_rad(rig), 1) + " deg apart\n";
+  std::vector<std::vector<std::string>> rows;
+  for (int i = 0; i < 2; ++i) {
+    const Json view = describe(rig.views[static_cast<std::size_t>(i)]);
+    for (const auto& [name, value] : view.items()) {
+      std::string cell;
+      const Json numbers = value.is_array() ? value : Json::array({value});
+      for (const auto& number : numbers)
+        cell += (cell.empty() ? "" : ", ") + (number.is_number_float() ? fixed(number.get<double>(), 3)
+                                              : number.is_string()     ? number.get<std::string>()
+                                                                       : number.dump());
+      rows.push_back({"view " + std::to_string(i + 1), name, cell});
+    }
+  }
+  return text + textTable({"", "", ""}, rows);
+}
+
+void finish(Session& session, const BiplanarRig& rig, const std::string& output) {
+  session.warn(rig.calibration.warnings);
+  std::string text = rigText(rig);
+  if (!output.empty()) {
+    saveRig(rig, output);
+    text += "written      " + output + "\n";
+  }
+  session.result(rigInfo(rig), text);
+}
+
+BiplanarRig importRig(const std::string& format, const std::vector<std::filesystem::path>& files) {
+  const auto needs = [&](std::size_t count) {
+    if (files.size() != count)
+      throw InputError{
+          {"sinew rig import", "FILES", std::to_string(count) + " for " + format, std::to_string(files.size())}};
+  };
+  if (format == "json") {
+    needs(1);
+    return loadRig(files[0]);
+  }
+  needs(2);
+  return importTextCalibration(files, format);
+}
+
+void addImport(CLI::App& rig, Commands& commands) {
+  struct Options {
+    std::string format, output;
+    std::vector<std::filesystem::path> files;
+  };
+  auto options = std::make_shared<Options>();
+  auto& command = addCommand(rig, "import", "turn another program's calibration into a rig file",
+                             "sinew rig import --format autoscoper cam01.txt cam02.txt -o rig.json");
+  command.add_option("--format", options->format, "autoscoper, mayacam or json")->required();
+  command.add_option("FILES", options->files, "one file a view, frontal first; one for json")->required();
+  command.add_option("-o,--output", options->output, "rig file to write");
+  command.callback([&commands, options] {
+    commands.chosen = [&session = commands.session, options] {
+      static const std::vector<std::string> kFormats = {"autoscoper", "mayacam", "json"};
+      if (std::ranges::find(kFormats, options->format) == kFormats.end())
+        throw InputError{{"sinew rig import", "--format", "autoscoper, mayacam or json",
+                          "'" + options->format + "'" + didYouMean(options->format, kFormats)}};
+      finish(session, importRig(options->format, options->files), options->output);
+      return ExitStatus::Done;
+    };
+  });
+}
+
+void addInfo(CLI::App& rig, Commands& commands) {
+  auto file = std::make_shared<std::string>();
+  auto& command = addCommand(rig, "info", "say what a rig file holds", "sinew rig info rig.json --json");
+  command.add_option("RIG", *file, "rig file")->required();
+  command.callback([&commands, file] {
+    commands.chosen = [&session = commands.session, file] {
+      finish(session, loadRig(*file), "");
+      return ExitStatus::Done;
+    };
+  });
+}
+
+}  // namespace
+
+void addRigCommands(Commands& commands) {
+  auto& rig = addCommand(commands.app, "rig", "view geometry: import, inspect",
+                         "sinew rig import --format autoscoper cam01.txt cam02.txt -o rig.json");
+  rig.require_subcommand(1);
+  addImport(rig, commands);
+  addInfo(rig, commands);
+}
+
+}  // namespace sinew
