@@ -10,13 +10,17 @@
 
 namespace sinew {
 
+/// A cell that continues the one to its left.
+inline constexpr const char* kSpan = "<span>";
+
 /// A table of the report: cells are final text with units in the header; missing values read "not measured" or
 /// "undetermined", never blank.
 struct ReportTable {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::string footnote;  ///< convention, norm source
+  std::string footnote;              ///< what the marks mean: stands under the table
+  std::vector<std::string> sources;  ///< conventions and norm sources, for the annex
   /// Left and right z-score of each row, for a bar; NaN = no norm. Empty: the table has no bars.
   std::vector<std::array<double, 2>> z_scores;
 };
