@@ -42,9 +42,13 @@ class SkeletonFitter {
       return some;
     };
     const int posture = body_.postureBegin();
-    solve(up_to([&](int i) { return i == BodyParameters::kSize || (i >= posture && i < posture + 6); }), 0, 0.2);
-    if (!job_.cancelled()) solve(up_to([&](int i) { return i == BodyParameters::kSize || i >= posture; }), 0.2, 0.5);
-    fit.outcome = job_.cancelled() ? Outcome::Cancelled : solve(observable, 0.5, 1);
+    const std::vector<int> root =
+        up_to([&](int i) { return i == BodyParameters::kSize || (i >= posture && i < posture + 6); });
+    const std::vector<int> pose = up_to([&](int i) { return i == BodyParameters::kSize || i >= posture; });
+    solve(root, Loss::Wide, 0, 0.1);
+    solve(pose, Loss::Wide, 0.1, 0.3);
+    solve(observable, Loss::Wide, 0.3, 0.7);
+    fit.outcome = solve(observable, Loss::Stated, 0.7, 1);
     if (fit.outcome != Outcome::Converged) return fit;
     describe(fit);
     return fit;
@@ -79,14 +83,32 @@ class SkeletonFitter {
     return observable;
   }
 
-  Outcome solve(const std::vector<int>& active, double from, double to) {
+  /// On the way to the solution the loss is as wide as the residuals are, or a start some hundred sigma away would
+  /// crawl along the linear branch; at the end it is what the options say.
+  enum class Loss { Wide, Stated };
+
+  double lossWidth_sigma(Loss loss) const {
+    if (loss == Loss::Stated) return options_.robust_loss_sigma;
+    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
+    std::vector<double> sigmas;
+    for (const auto& s : sightings_.items)
+      if (const auto uv = project(views_[s.view], points[s.point]))
+        sigmas.push_back((s.uv_px - *uv).norm() / s.sigma_px);
+    if (sigmas.empty()) return options_.robust_loss_sigma;
+    std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<long>(sigmas.size() / 2));
+    return std::max(options_.robust_loss_sigma, 2 * sigmas[sigmas.size() / 2]);
+  }
+
+  Outcome solve(const std::vector<int>& active, Loss loss, double from, double to) {
+    if (job_.cancelled()) return Outcome::Cancelled;
+    const double width_sigma = lossWidth_sigma(loss);
     SharedBody shared{reference_, body_, sightings_.landmarks, active, z_};
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &shared;
     ceres::Problem problem{problem_options};
     for (const auto& s : sightings_.items)
       problem.AddResidualBlock(new SightingCost{shared, s.point, views_[s.view], s.uv_px, s.sigma_px},
-                               new ceres::HuberLoss{options_.robust_loss_sigma}, shared.x());
+                               new ceres::HuberLoss{width_sigma}, shared.x());
     std::vector<double> weights;
     for (const int i : active) weights.push_back(body_.priorWeight(i));
     problem.AddResidualBlock(new PriorCost{weights}, nullptr, shared.x());
@@ -96,14 +118,14 @@ class SkeletonFitter {
     }
     CeresJob monitor{job_, "fit", options_.max_iterations, from, to};
     auto solver = solverOptions(monitor, options_.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
-    solver.function_tolerance = 1e-8;  // a hundredth of a thousandth of an SD
+    solver.function_tolerance = loss == Loss::Wide ? 1e-4 : 1e-8;
     solver.parameter_tolerance = 1e-9;
     solver.gradient_tolerance = 1e-9;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     z_ = shared.z();
     const Outcome outcome = outcomeOf(summary);
-    if (outcome == Outcome::Converged) rememberCovariance(problem, active);
+    if (outcome == Outcome::Converged && loss == Loss::Stated) rememberCovariance(problem, active);
     return outcome;
   }
 

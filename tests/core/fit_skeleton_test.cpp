@@ -266,6 +266,14 @@ TEST_F(FitSkeleton, ReportsProgressAndStopsWhenAsked) {
   EXPECT_GT(last, 0.5);
 }
 
+TEST_F(FitSkeleton, TooFewIterationsAreSaidAndCarryNoNumbers) {
+  draw(11);
+  const SkeletonFit result = fitSkeleton(skeleton, views, seen(1.0), priors, {.max_iterations = 1});
+  EXPECT_EQ(result.outcome, Outcome::NotConverged);
+  EXPECT_TRUE(std::isnan(result.rms_px));
+  EXPECT_TRUE(result.figures.empty());
+}
+
 TEST_F(FitSkeleton, TheSameSightingsGiveTheSameNumbers) {
   draw(12);
   const auto sightings = seen(1.0);

@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include "tests/benchmarks/accuracy_study.h"
+#include "tests/support/resources.h"
+#include "tests/support/synthetic_views.h"
+
+namespace sinew {
+namespace {
+
+constexpr int kBodies = 20;  // the full study of 200 is the program sinew_accuracy
+
+struct Rig {
+  const char* name;
+  std::vector<View> (*views)();
+};
+void PrintTo(const Rig& rig, std::ostream* out) {
+  *out << rig.name;
+}
+
+class Accuracy : public testing::TestWithParam<Rig> {};
+
+TEST_P(Accuracy, NoiseFreePicksGiveTheTruth) {
+  const AccuracyStudy study = studyAccuracy(test::resourceDir(), GetParam().views(), 0, kBodies);
+  EXPECT_EQ(study.not_converged, 0);
+  for (const auto& row : study.rows) {
+    EXPECT_LT(row.max, 0.1) << row.quantity;  // mm and deg: what is required of exact landmarks
+    EXPECT_EQ(row.undetermined, 0) << row.quantity;
+  }
+}
+
+TEST_P(Accuracy, OneMillimetreOfPickingNoiseStaysWithinTheRequiredSpread) {
+  const AccuracyStudy study = studyAccuracy(test::resourceDir(), GetParam().views(), 1, kBodies);
+  EXPECT_EQ(study.not_converged, 0);
+  EXPECT_LT(study.row("femur_length").sd, 2);
+  EXPECT_LT(study.row("tibia_length").sd, 2);
+  EXPECT_LT(study.row("femoral_torsion").sd, 3);
+  EXPECT_LT(study.row("tibial_torsion").sd, 3);
+  EXPECT_LT(study.row("hka").sd, 0.5);
+  double covered = 0, all = 0;
+  for (const auto& row : study.rows) {
+    EXPECT_LT(std::abs(row.bias), 4 * row.sd / std::sqrt(row.determined)) << row.quantity;
+    EXPECT_GE(row.coverage, row.determined > kBodies ? 0.8 : 0.7) << row.quantity;  // 3 SD of 40 and 20 draws
+    covered += row.coverage * row.determined;
+    all += row.determined;
+  }
+  // All figures together, which are not independent: 95 % +- 3 % would be three SD of 400 draws.
+  EXPECT_GT(covered / all, 0.91);
+  EXPECT_LT(covered / all, 0.99);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rigs, Accuracy,
+                         testing::Values(Rig{"cone_beam", test::coneBeamPair}, Rig{"slot_scan", test::slotScanPair}),
+                         [](const auto& tested) { return std::string{tested.param.name}; });
+
+}  // namespace
+}  // namespace sinew
