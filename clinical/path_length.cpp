@@ -168,12 +168,14 @@ void applyObliquity(const View& view, RowRange rows, float* field) {
 PixelField attenuationField(const std::vector<XrayVolume>& volumes, const std::vector<XrayBall>& balls,
                             const View& view, const Job& job) {
   PixelField field(std::size_t(view.width_px) * std::size_t(view.height_px), 0.0F);
+  const double hand = view.R_CW.determinant() < 0 ? -1 : 1;  // a mirrored film turns every outline round
   for (const auto& volume : volumes) {
     if (job.cancelled()) return {};
     const auto points = imagePoints(volume.mesh_W, view);
     forEachRowBand(view.height_px, [&](RowRange rows) {
       for (const auto& [a, b, c] : volume.mesh_W.triangles)
-        addTriangle(&points[a], &points[b], &points[c], volume.contrast_per_m, view.width_px, rows, field.data());
+        addTriangle(&points[a], &points[b], &points[c], hand * volume.contrast_per_m, view.width_px, rows,
+                    field.data());
     });
   }
   for (const auto& ball : balls) requireInBeam(project(view, ball.center_W));

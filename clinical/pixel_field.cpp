@@ -76,20 +76,15 @@ PixelField reduced(const PixelField& in, int width, int step, int& reduced_width
   return out;
 }
 
-}  // namespace
-
-PixelField blurred(const PixelField& field, int width, double sigma_u_px, double sigma_v_px) {
-  PixelField out = sigma_u_px > 0.05 ? blurredAlongRows(field, width, halfKernel(sigma_u_px)) : field;
-  return sigma_v_px > 0.05 ? blurredAlongColumns(out, width, halfKernel(sigma_v_px)) : out;
+/// Grid step at which a Gaussian is still well sampled.
+int coarseStep(double sigma_px) {
+  return std::max(1, int(sigma_px / 4));
 }
 
-PixelField broadlyBlurred(const PixelField& field, int width, double sigma_px) {
-  const int step = std::max(1, int(sigma_px / 4)), height = int(field.size()) / width;
-  int coarse_width = 0;
-  const PixelField small = reduced(field, width, step, coarse_width);
-  const PixelField coarse = blurred(small, coarse_width, sigma_px / step, sigma_px / step);
+/// Bilinear interpolation from the means of blocks back to pixels.
+PixelField enlarged(const PixelField& coarse, int coarse_width, int step, int width, int height) {
   const int coarse_height = int(coarse.size()) / coarse_width;
-  PixelField out(field.size());
+  PixelField out(std::size_t(width) * std::size_t(height));
   forEachRowBand(height, [&](RowRange rows) {
     for (int v = rows.begin; v < rows.end; ++v) {
       const double y = std::clamp((v + 0.5) / step - 0.5, 0.0, coarse_height - 1.0);
@@ -109,21 +104,37 @@ PixelField broadlyBlurred(const PixelField& field, int width, double sigma_px) {
   return out;
 }
 
+}  // namespace
+
+PixelField blurred(const PixelField& field, int width, double sigma_u_px, double sigma_v_px) {
+  PixelField out = sigma_u_px > 0.05 ? blurredAlongRows(field, width, halfKernel(sigma_u_px)) : field;
+  return sigma_v_px > 0.05 ? blurredAlongColumns(out, width, halfKernel(sigma_v_px)) : out;
+}
+
+PixelField broadlyBlurred(const PixelField& field, int width, double sigma_px) {
+  const int step = coarseStep(sigma_px), height = int(field.size()) / width;
+  int coarse_width = 0;
+  const PixelField small = reduced(field, width, step, coarse_width);
+  return enlarged(blurred(small, coarse_width, sigma_px / step, sigma_px / step), coarse_width, step, width, height);
+}
+
 PixelField grain(int width, int height, double sigma_u_px, double sigma_v_px, std::uint64_t seed) {
-  PixelField field(std::size_t(width) * std::size_t(height));
-  forEachRowBand(height, [&](RowRange rows) {
+  const int step = coarseStep(std::min(sigma_u_px, sigma_v_px));
+  const int coarse_width = (width + step - 1) / step, coarse_height = (height + step - 1) / step;
+  PixelField field(std::size_t(coarse_width) * std::size_t(coarse_height));
+  forEachRowBand(coarse_height, [&](RowRange rows) {
     for (int v = rows.begin; v < rows.end; ++v) {
       RandomSource random{seed, std::uint64_t(v)};
-      for (int u = 0; u < width; ++u)
-        field[std::size_t(v) * std::size_t(width) + std::size_t(u)] = float(random.normal());
+      for (int u = 0; u < coarse_width; ++u)
+        field[std::size_t(v) * std::size_t(coarse_width) + std::size_t(u)] = float(random.normal());
     }
   });
-  field = blurred(field, width, sigma_u_px, sigma_v_px);
+  field = blurred(field, coarse_width, sigma_u_px / step, sigma_v_px / step);
   double sum2 = 0;
   for (const float x : field) sum2 += double(x) * double(x);
   const float scale = float(1 / std::sqrt(sum2 / double(field.size())));
   for (float& x : field) x *= scale;
-  return field;
+  return step == 1 ? field : enlarged(field, coarse_width, step, width, height);
 }
 
 }  // namespace sinew

@@ -4,19 +4,18 @@
 #include <vector>
 
 #include "clinical/case.h"
+#include "clinical/synthetic_rig.h"
 #include "core/job.h"
 #include "core/model/model.h"
 #include "imaging/radiograph.h"
 
 namespace sinew {
 
-enum class SyntheticRig { ConeBeam, SlotScan };
-
 struct SyntheticOptions {
   std::filesystem::path resource_dir;  ///< priors, landmark protocol, examination tests
   unsigned seed = 1;
   SyntheticRig rig = SyntheticRig::ConeBeam;
-  double picking_noise_mm = 1.0;   ///< SD of a landmark pick, in the plane of the patient
+  double picking_noise_mm = 1.0;  ///< SD of a landmark pick, in the plane of the patient
   double exam_noise_deg = 0;
   bool noise_in_images = true;
 };
@@ -35,10 +34,11 @@ struct SyntheticPatient {
 /// Deterministic in the options. No images yet.
 SyntheticPatient drawSyntheticPatient(const Model& reference, const SyntheticOptions& options);
 
-/// Radiograph of posed bones and a soft-tissue envelope: attenuation (Beer-Lambert, water and cortical/cancellous bone)
-/// integrated along the ray of every pixel, quantum noise, detector blur, R/L marker; a true DX image in memory.
-Radiograph renderRadiograph(const Model& model, const Posture& posture, const View& view, const SyntheticOptions& options,
-                            const std::string& view_position, const Job& job = {});
+/// Radiograph of posed bones and a soft-tissue envelope: attenuation (Beer-Lambert, water and cortical/cancellous
+/// bone) integrated along the ray of every pixel, quantum noise, detector blur, R/L marker; a true DX image in
+/// memory.
+Radiograph renderRadiograph(const Model& model, const Posture& posture, const View& view,
+                            const SyntheticOptions& options, const std::string& view_position, const Job& job = {});
 
 /// Writes a whole case folder: two DICOM radiographs, phantom images and beads (cone beam), picks, exam, truth.
 /// The case has run no stage yet.

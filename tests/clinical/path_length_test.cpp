@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solids.h"
+#include "tests/clinical/solids.h"
 
 namespace sinew {
 namespace {
