@@ -27,14 +27,17 @@ struct Model {
   Skeleton skeleton;      ///< of that shape
   Musculature musculature;
   std::shared_ptr<const std::vector<BoneMesh>> bones = std::make_shared<std::vector<BoneMesh>>();
-  std::map<std::string, double> length_factors;  ///< by unit: what the exam changed (1 if absent)
+  /// By unit: what the exam changed (1 if absent). A record; the lengths in `musculature` include it already.
+  std::map<std::string, double> length_factors;
 };
 
 /// The reference model from the resource folder (skeleton, landmarks, muscles, bone meshes).
+/// @throws InputError: file, entry, expected, found.
 Model loadReferenceModel(const std::filesystem::path& resource_dir);
 
 /// The model of a shape: bones and joints deformed, path points carried by the same field ("naive anchoring": each
-/// anchor moves with its bone), fibre and tendon lengths scaled by the ratio of path lengths at the zero posture.
+/// anchor moves with its bone), fibre and tendon lengths scaled by the ratio of path lengths at the zero posture;
+/// F_max stays. @pre `reference` is undeformed. @throws InputError for a shape that the deformation cannot represent.
 Model deformedModel(const Model& reference, const ShapeParameters& shape);
 
 /// Versioned JSON ("sinew.model", version 1). Bone meshes are not stored: they follow from the shape.
