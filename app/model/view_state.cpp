@@ -20,18 +20,18 @@ void ViewState::setMuscle(const std::string& name) {
   emit muscleChanged();
 }
 
-void ViewState::setWindow(int view, const DisplayWindow& window) {
-  auto& current = windows_.at(std::size_t(view));
+void ViewState::setWindow(int slot, const DisplayWindow& window) {
+  auto& current = windows_.at(std::size_t(slot));
   if (current == window) return;
   current = window;
-  emit windowChanged(view);
+  emit windowChanged(slot);
 }
 
 void ViewState::reset() {
   setStage(Stage::Images);
   setLandmark({});
   setMuscle({});
-  for (int view = 0; view < 2; ++view) setWindow(view, {});
+  for (int slot = 0; slot < int(windows_.size()); ++slot) setWindow(slot, {});
 }
 
 }  // namespace sinew

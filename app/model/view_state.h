@@ -24,24 +24,25 @@ class ViewState : public QObject {
   Stage stage() const { return stage_; }
   const std::string& landmark() const { return landmark_; }
   const std::string& muscle() const { return muscle_; }
-  const DisplayWindow& window(int view) const { return windows_.at(std::size_t(view)); }
+  /// 0, 1: the patient's radiographs; 2, 3: the phantom's.
+  const DisplayWindow& window(int slot) const { return windows_.at(std::size_t(slot)); }
 
   void setStage(Stage stage);
   void setLandmark(const std::string& name);
   void setMuscle(const std::string& name);
-  void setWindow(int view, const DisplayWindow& window);
+  void setWindow(int slot, const DisplayWindow& window);
   void reset();  ///< for another case
 
  signals:
   void stageChanged();
   void landmarkChanged();
   void muscleChanged();
-  void windowChanged(int view);
+  void windowChanged(int slot);
 
  private:
   Stage stage_ = Stage::Images;
   std::string landmark_, muscle_;
-  std::array<DisplayWindow, 2> windows_;
+  std::array<DisplayWindow, 4> windows_;
 };
 
 }  // namespace sinew

@@ -1,0 +1,34 @@
+#pragma once
+#include <QDialog>
+#include <filesystem>
+
+#include "app/model/new_case.h"
+
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+
+namespace sinew {
+
+/// Form of a new case: patient, two radiographs, folder.
+class NewCaseDialog : public QDialog {
+  Q_OBJECT
+ public:
+  explicit NewCaseDialog(QWidget* parent = nullptr);
+
+  /// @throws InputError naming the field that is missing or cannot be used.
+  NewCase wanted() const;
+  std::filesystem::path folder() const;
+
+ private:
+  void accept() override;
+  QLineEdit* addPath(QFormLayout& form, const QString& object_name, const QString& label, bool is_folder);
+
+  QLineEdit *name_, *id_, *birth_date_, *diagnosis_, *height_cm_, *mass_kg_, *spacing_mm_;
+  QComboBox* sex_;
+  QLineEdit *frontal_, *lateral_, *folder_;
+  QLabel* problem_;
+};
+
+}  // namespace sinew

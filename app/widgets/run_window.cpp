@@ -1,0 +1,38 @@
+#include "app/widgets/run_window.h"
+
+#include <QApplication>
+#include <QScreen>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <cstdio>
+
+#include "app/model/workspace.h"
+#include "app/widgets/main_window.h"
+#include "app/widgets/report_pages.h"
+#include "app/widgets/theme.h"
+#include "app/widgets/vtk_view.h"
+
+namespace sinew {
+
+int runWindow(int argc, char** argv, const std::filesystem::path& resource_dir) {
+  QSurfaceFormat::setDefaultFormat(VtkView::defaultFormat());
+  QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+  QApplication application{argc, argv};
+  QApplication::setApplicationName("Sinew");
+  QApplication::setQuitOnLastWindowClosed(true);
+  try {
+    installTheme(application, resource_dir);
+    Workspace workspace{resource_dir, reportWriter(resource_dir)};
+    MainWindow window{workspace, renderReportPages};
+    const QSize screen = application.primaryScreen()->availableSize();
+    window.resize(std::min(1680, screen.width()), std::min(1020, screen.height()));
+    window.show();
+    if (argc > 1) workspace.openCase(argv[1]);
+    return QApplication::exec();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sinew: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace sinew

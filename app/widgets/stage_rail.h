@@ -1,0 +1,34 @@
+#pragma once
+#include <QWidget>
+#include <map>
+
+#include "clinical/case.h"
+
+class QLabel;
+class QPushButton;
+
+namespace sinew {
+
+class Workspace;
+
+/// The stages of the case from top to bottom: state, key figures, and the way to each page.
+class StageRail : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StageRail(Workspace& workspace, QWidget* parent = nullptr);
+
+ private:
+  struct Entry {
+    QPushButton* button;
+    QLabel *sign, *title, *line;
+  };
+  Entry makeEntry(Stage stage);
+  void refresh();
+  void refreshSelection();
+
+  Workspace& workspace_;
+  std::map<Stage, Entry> entries_;
+  QPushButton* run_all_;
+};
+
+}  // namespace sinew

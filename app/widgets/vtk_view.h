@@ -1,0 +1,54 @@
+#pragma once
+#include <vtkSmartPointer.h>
+
+#include <QOpenGLWidget>
+#include <QSurfaceFormat>
+
+class vtkGenericOpenGLRenderWindow;
+class vtkRenderer;
+class vtkRenderWindowInteractor;
+
+namespace sinew {
+
+/// VTK inside a Qt 6 window: a vtkGenericOpenGLRenderWindow that draws with this widget's OpenGL context. Left drag
+/// turns, middle or Shift + left drag moves, wheel zooms. Needs a platform with OpenGL: not "offscreen".
+class VtkView : public QOpenGLWidget {
+  Q_OBJECT
+ public:
+  explicit VtkView(QWidget* parent = nullptr);
+  ~VtkView() override;
+
+  /// To be installed with QSurfaceFormat::setDefaultFormat() before QApplication.
+  static QSurfaceFormat defaultFormat();
+
+  vtkRenderer& renderer();
+  void requestRender();
+  int renderCount() const { return render_count_; }
+
+ signals:
+  /// A press and release at one place; [device px], origin at the bottom left.
+  void clicked(double x_px, double y_px);
+
+ protected:
+  void initializeGL() override;
+  void resizeGL(int width, int height) override;
+  void paintGL() override;
+  bool event(QEvent* event) override;
+
+ private:
+  void observeWindow();
+  void releaseContext();
+  void syncSize();
+  bool forward(QEvent* event);
+  void tellPosition(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void copyToWidget();
+
+  vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  QPointF press_;
+  bool dirty_ = true, painting_ = false;
+  int render_count_ = 0, wheel_rest_ = 0;
+};
+
+}  // namespace sinew

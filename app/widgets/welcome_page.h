@@ -1,0 +1,26 @@
+#pragma once
+#include <QWidget>
+
+class QPushButton;
+
+namespace sinew {
+
+class Workspace;
+
+/// What one sees without a case: ways to begin.
+class WelcomePage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit WelcomePage(Workspace& workspace, QWidget* parent = nullptr);
+
+ signals:
+  void openWanted();
+  void newWanted();
+  void demoWanted();
+
+ private:
+  QPushButton* makeChoice(const QString& object_name, const QString& icon_name, const QString& title,
+                          const QString& text);
+};
+
+}  // namespace sinew
