@@ -55,9 +55,9 @@ std::string judgement(const BoneFigure* f, const Norm& norm) {
 std::string normText(const std::optional<Norm>& norm, const std::string& unit) {
   if (!norm) return kNoNorm;
   std::string text = numberText(norm->mean, decimalsOf(unit));
-  text += std::isfinite(norm->sd) ? " \u00B1 " + numberText(norm->sd, decimalsOf(unit)) : " (no SD)";
-  if (!norm->comparable) text += " \u2020";
-  if (!norm->verified) text += " \u2021";
+  text += std::isfinite(norm->sd) ? "\u00A0\u00B1\u00A0" + numberText(norm->sd, decimalsOf(unit)) : " (no SD)";
+  if (!norm->comparable) text += "\u00A0\u2020";
+  if (!norm->verified) text += "\u00A0\u2021";
   return text;
 }
 

@@ -35,8 +35,8 @@ std::string measuredText(const ExamComparison& comparison, const PhysicalExam& e
 std::string normText(const ExamTest& test) {
   if (!std::isfinite(test.norm_mean_deg)) return kNoNorm;
   return numberText(test.norm_mean_deg) +
-         (std::isfinite(test.norm_sd_deg) ? " \u00B1 " + numberText(test.norm_sd_deg) : "") +
-         (test.norm_verified ? "" : " \u2021");
+         (std::isfinite(test.norm_sd_deg) ? "\u00A0\u00B1\u00A0" + numberText(test.norm_sd_deg) : "") +
+         (test.norm_verified ? "" : "\u00A0\u2021");
 }
 
 /// Muscles that carry the moment where the test ends, or what else stops it.
@@ -90,9 +90,15 @@ std::string factorText(const ExamFit& fit, const ExamProtocol& protocol, const L
 ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamProtocol& protocol) {
   ReportTable table;
   table.title = "Physical examination and the same tests on the model";
-  table.columns = {
-      "Test",          "Side",         "Measured, deg", "Norm, deg", "Model before, deg", "Model after, deg",
-      "Residual, deg", "Stop at, N m", "Limited by"};
+  table.columns = {"Test",
+                   "Side",
+                   "Measured, deg",
+                   "Norm, deg",
+                   "Model before, deg",
+                   "Model after, deg",
+                   "Residual, deg",
+                   "Stop at, N\u00A0m",
+                   "Limited by"};
   std::set<std::string> noted;
   for (const auto& comparison : fit.tests) {
     const ExamTest& test = protocol.test(comparison.test);
@@ -143,7 +149,7 @@ ReportTable muscleTable(const ExamFit& fit, const ExamProtocol& protocol) {
 ReportTable protocolTable(const ExamFit& fit, const ExamProtocol& protocol) {
   ReportTable table;
   table.title = "Protocol of the tests";
-  table.columns = {"Test", "Convention", "What the examiner does", "SD, deg", "Stop at 75 kg, N m"};
+  table.columns = {"Test", "Convention", "What the examiner does", "SD, deg", "Stop at 75\u00A0kg, N\u00A0m"};
   std::set<std::string> shown;
   for (const auto& comparison : fit.tests) {
     const ExamTest& test = protocol.test(comparison.test);
@@ -160,10 +166,15 @@ ReportTable protocolTable(const ExamFit& fit, const ExamProtocol& protocol) {
 ReportTable lengthFactorTable(const ExamFit& fit) {
   ReportTable table;
   table.title = "Length factor of every changed musculotendon unit";
-  table.columns = {"Unit", "Side", "Length factor"};
-  for (const auto& [unit, factor] : fit.length_factors)
-    table.rows.push_back({readable(unit), sideText(unit.back()), numberText(factor, 3)});
-  if (table.rows.empty()) table.rows.push_back({"none changed", "both", "1.000"});
+  table.columns = {"Unit", "Left", "Right"};
+  std::set<std::string> units;
+  for (const auto& [unit, factor] : fit.length_factors) units.insert(std::string{withoutSide(unit)});
+  const auto factorOf = [&](const std::string& unit) {
+    const auto it = fit.length_factors.find(unit);
+    return it == fit.length_factors.end() ? std::string{"unchanged"} : numberText(it->second, 3);
+  };
+  for (const auto& unit : units) table.rows.push_back({readable(unit), factorOf(unit + "_l"), factorOf(unit + "_r")});
+  if (table.rows.empty()) table.rows.push_back({"none changed", "unchanged", "unchanged"});
   table.footnote = "Fibre and tendon are scaled together.";
   return table;
 }

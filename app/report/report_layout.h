@@ -1,0 +1,18 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "app/report/ink.h"
+#include "app/report/report_document.h"
+
+namespace sinew {
+
+inline constexpr double kPageWidth_mm = 210, kPageHeight_mm = 297;  // A4
+
+/// What one page draws. Holds what it needs of the document.
+using ReportPage = std::function<void(Ink&)>;
+
+/// Cuts the document into pages: a summary page, then annexes. Every page carries title, page number and disclaimer.
+std::vector<ReportPage> layOutReport(const ReportDocument& document);
+
+}  // namespace sinew
