@@ -70,19 +70,21 @@ std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musc
 
 std::string referenceLengthsCsv(const std::filesystem::path& resource_dir) {
   const Skeleton skeleton = loadReferenceSkeleton(resource_dir);
-  Musculature musculature = loadPublishedMusculature(resource_dir, skeleton);
-  std::erase_if(musculature.units, [](const MusculotendonUnit& unit) { return unit.name.ends_with("_l"); });
+  const Musculature musculature = loadPublishedMusculature(resource_dir, skeleton);
   const auto estimates = estimateLengths(skeleton, musculature, normalPostures(skeleton), restingPostures(skeleton));
   std::string csv =
       "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv and the "
       "skeleton: longest path over normal postures, published fibre : tendon ratio, no pull at rest\n"
       "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,scale_of_published,relaxed,"
       "standing_normalized_fiber_length\n";
-  for (const LengthEstimate& e : estimates) {
+  const std::size_t half = estimates.size() / 2;  // right units, then left ones in the same order
+  for (std::size_t i = 0; i < half; ++i) {
+    // The trunk bends to both sides, in the sample not quite alike: the side that needs more decides.
+    const LengthEstimate& e = estimates[estimates[i].scale >= estimates[half + i].scale ? i : half + i];
     char line[256];
-    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%s,%.3f\n", e.unit.c_str(), e.optimal_fiber_length_m,
-                  e.tendon_slack_length_m, e.longest_path_m, e.scale, e.relaxed ? "yes" : "no",
-                  e.resting_normalized_fiber);
+    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%s,%.3f\n", estimates[i].unit.c_str(),
+                  e.optimal_fiber_length_m, e.tendon_slack_length_m, e.longest_path_m, e.scale,
+                  e.relaxed ? "yes" : "no", e.resting_normalized_fiber);
     csv += line;
   }
   return csv;
