@@ -79,6 +79,7 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
 }
 
 void addCommands(Commands& commands) {
+  addStatusCommand(commands);
   addRigCommands(commands);
   addTriangulateCommand(commands);
 }

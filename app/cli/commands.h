@@ -19,8 +19,16 @@ struct Commands {
 CLI::App& addCommand(CLI::App& parent, const std::string& name, const std::string& description,
                      const std::string& example);
 
-// One function a file of this folder.
+// One function a file of this folder, in the order of the help.
+void addRunCommands(Commands& commands);  // demo, run, report
+void addNewCommand(Commands& commands);
+void addStatusCommand(Commands& commands);
 void addRigCommands(Commands& commands);
 void addTriangulateCommand(Commands& commands);
+void addFitCommand(Commands& commands);
+void addExamCommand(Commands& commands);
+void addModelCommands(Commands& commands);
+void addEvaluateCommand(Commands& commands);
+void addCurveCommand(Commands& commands);
 
 }  // namespace sinew

@@ -1,0 +1,23 @@
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+#include "app/cli/session.h"
+
+namespace sinew {
+
+const Model& Session::reference() {
+  if (!reference_) {
+    const auto start = std::chrono::steady_clock::now();
+    reference_ = std::make_shared<const Model>(loadReferenceModel(resourceDir()));
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    spdlog::debug("reference model: {:.3f} s", seconds.count());
+  }
+  return *reference_;
+}
+
+Model Session::model(const std::string& name_or_file) {
+  return name_or_file == "reference" ? reference() : loadModel(name_or_file, reference());
+}
+
+}  // namespace sinew

@@ -1,0 +1,138 @@
+#include "app/cli/svg_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew {
+namespace {
+
+constexpr double kWidth = 720, kPanelHeight = 240, kLeft = 84, kRight = 24, kTop = 52, kGap = 40, kBottom = 56;
+constexpr std::array kColours = {"#0b5394", "#b45309", "#3f6212"};  // dark enough for grey prints
+constexpr std::array kDashes = {"", "7 4", "2 3"};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+std::string tickText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
+}
+
+std::string textAt(double x, double y, const std::string& text, const std::string& more = {}) {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" " + more + ">" + escaped(text) + "</text>\n";
+}
+
+std::string lineAt(double x1, double y1, double x2, double y2, const std::string& stroke) {
+  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) +
+         "\" stroke=\"" + stroke + "\"/>\n";
+}
+
+/// Linear map of values to the drawing.
+struct Axis {
+  double low, high, from, to;
+  double operator()(double value) const { return from + (value - low) / (high - low) * (to - from); }
+};
+
+Axis axisOver(const std::vector<double>& ticks, double from, double to) {
+  return {ticks.front(), ticks.back(), from, to};
+}
+
+std::vector<double> ticksOf(const PlotPanel& panel) {
+  double low = 1e300, high = -1e300;
+  for (const auto& line : panel.lines)
+    for (const double y : line.y)
+      if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+  return low > high ? std::vector<double>{0, 1} : niceTicks(low, high, 5);
+}
+
+std::string polyline(const std::vector<double>& x, const PlotLine& line, const Axis& to_u, const Axis& to_v,
+                     std::size_t style) {
+  std::string path;
+  bool pen_down = false;
+  for (std::size_t i = 0; i < x.size() && i < line.y.size(); ++i) {
+    if (!std::isfinite(line.y[i])) {
+      pen_down = false;
+      continue;
+    }
+    path += (pen_down ? "L" : "M") + number(to_u(x[i])) + " " + number(to_v(line.y[i])) + " ";
+    pen_down = true;
+  }
+  return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
+         "\" stroke-width=\"2\" stroke-dasharray=\"" + kDashes[style % kDashes.size()] + "\"/>\n";
+}
+
+std::string panelSvg(const PlotPanel& panel, const std::vector<double>& x, const std::vector<double>& x_ticks,
+                     double top) {
+  const double bottom = top + kPanelHeight;
+  const auto y_ticks = ticksOf(panel);
+  const Axis to_u = axisOver(x_ticks, kLeft, kWidth - kRight), to_v = axisOver(y_ticks, bottom, top);
+  std::string svg;
+  for (const double y : y_ticks) {
+    svg += lineAt(kLeft, to_v(y), kWidth - kRight, to_v(y), std::abs(y) < 1e-12 ? "#666666" : "#dddddd");
+    svg += textAt(kLeft - 8, to_v(y) + 4, tickText(y), "text-anchor=\"end\"");
+  }
+  for (const double tick : x_ticks) svg += lineAt(to_u(tick), top, to_u(tick), bottom, "#dddddd");
+  svg += "<text transform=\"translate(20 " + number((top + bottom) / 2) + ") rotate(-90)\" text-anchor=\"middle\">" +
+         escaped(panel.y_label) + "</text>\n";
+  for (std::size_t i = 0; i < panel.lines.size(); ++i) {
+    svg += polyline(x, panel.lines[i], to_u, to_v, i);
+    if (panel.lines.size() < 2) continue;
+    const double u = kLeft + 12 + 190 * static_cast<double>(i), v = top - 8;
+    svg += "<line x1=\"" + number(u) + "\" y1=\"" + number(v - 4) + "\" x2=\"" + number(u + 28) + "\" y2=\"" +
+           number(v - 4) + "\" stroke=\"" + kColours[i % kColours.size()] +
+           "\" stroke-width=\"2\" stroke-dasharray=\"" + kDashes[i % kDashes.size()] + "\"/>\n" +
+           textAt(u + 34, v, panel.lines[i].label);
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::vector<double> niceTicks(double low, double high, int count) {
+  if (!(high > low)) low -= 0.5, high += 0.5;
+  const double raw = (high - low) / std::max(count - 1, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= raw * (1 - 1e-9)) step = factor * power;
+  std::vector<double> ticks;
+  const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
+  for (double i = first; i <= last; ++i) ticks.push_back(i * step);
+  return ticks;
+}
+
+std::string plotSvg(const std::string& title, const std::string& x_label, const std::vector<double>& x,
+                    const std::vector<PlotPanel>& panels) {
+  const double height = kTop + static_cast<double>(panels.size()) * (kPanelHeight + kGap) - kGap + kBottom;
+  const auto [low, high] = std::ranges::minmax(x);
+  const auto x_ticks = niceTicks(low, high, 7);
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(kWidth) + "\" height=\"" +
+                    number(height) + "\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
+                    "\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\" fill=\"#222222\">\n" +
+                    "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+                    textAt(kLeft, 22, title, "font-size=\"15\" font-weight=\"bold\"");
+  double top = kTop;
+  for (const auto& panel : panels) {
+    svg += panelSvg(panel, x, x_ticks, top);
+    top += kPanelHeight + kGap;
+  }
+  const Axis to_u = axisOver(x_ticks, kLeft, kWidth - kRight);
+  for (const double tick : x_ticks)
+    svg += textAt(to_u(tick), top - kGap + 18, tickText(tick), "text-anchor=\"middle\"");
+  svg += textAt((kLeft + kWidth - kRight) / 2, top - kGap + 40, x_label, "text-anchor=\"middle\"");
+  return svg + "</svg>\n";
+}
+
+}  // namespace sinew
