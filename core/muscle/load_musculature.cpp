@@ -1,5 +1,7 @@
 #include "core/muscle/load_musculature.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>

@@ -1,5 +1,7 @@
 #include "core/muscle/muscle_path.h"
 
+#include <algorithm>
+
 namespace sinew {
 namespace {
 

