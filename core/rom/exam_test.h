@@ -19,15 +19,16 @@ struct ExamTest {
   std::string protocol;  ///< what the examiner does
   std::map<std::string, double> posture_deg;                ///< tested side, e.g. {"hip_flexion": 90}
   std::map<std::string, double> contralateral_posture_deg;  ///< other side
-  std::string coordinate;   ///< swept and read: "knee_flexion"
-  double sweep_from_deg = 0, sweep_to_deg = 0;  ///< start at ease, end where nobody goes
-  double read_scale = 1, read_offset_deg = 0;   ///< written value = scale * coordinate + offset
-  std::string convention;   ///< "0 = straight, positive = lack of extension"
-  double threshold_Nm = 50; ///< passive torque at which the examiner stops, for a body of 75 kg
+  std::string coordinate;                                   ///< swept and read: "knee_flexion"
+  double sweep_from_deg = 0, sweep_to_deg = 0;              ///< start at ease, end where nobody goes
+  double read_scale = 1, read_offset_deg = 0;               ///< written value = scale * coordinate + offset
+  std::string convention;                                   ///< "0 = straight, positive = lack of extension"
+  double threshold_Nm = 50;                     ///< passive torque at which the examiner stops, for a body of 75 kg
   double entry_min_deg = 0, entry_max_deg = 0;  ///< outside: refused
   double doubt_min_deg = 0, doubt_max_deg = 0;  ///< outside: warning
   double measurement_sd_deg = 5;
-  double norm_mean_deg = std::numeric_limits<double>::quiet_NaN(), norm_sd_deg = std::numeric_limits<double>::quiet_NaN();
+  double norm_mean_deg = std::numeric_limits<double>::quiet_NaN(),
+         norm_sd_deg = std::numeric_limits<double>::quiet_NaN();
   std::string norm_source;
   bool norm_verified = false;
   std::vector<std::string> muscle_groups;  ///< length groups that this test may change, by name in the same file
@@ -43,7 +44,8 @@ struct LengthGroup {
 struct ExamProtocol {
   std::vector<ExamTest> tests;
   std::vector<LengthGroup> groups;
-  const ExamTest& test(std::string_view id) const;  ///< @throws InputError with the nearest ids
+  const ExamTest& test(std::string_view id) const;        ///< @throws InputError with the nearest ids
+  const LengthGroup& group(std::string_view name) const;  ///< @throws InputError with the nearest names
 };
 /// Reads clinical/exam_tests.json. @throws InputError.
 ExamProtocol loadExamProtocol(const std::filesystem::path& resource_dir);
@@ -56,7 +58,7 @@ double passiveMoment_Nm(const Model& model, const Posture& posture, int coordina
 struct SimulatedTest {
   double angle_deg = std::numeric_limits<double>::quiet_NaN();  ///< as written down, by the test's convention
   double coordinate_deg = std::numeric_limits<double>::quiet_NaN();
-  bool stopped_by_joint = false;  ///< the bony or ligament stop came first
+  bool stopped_by_joint = false;              ///< the bony or ligament stop came first
   std::vector<std::string> limiting_muscles;  ///< those with the largest share of the moment, largest first, up to 3
 };
 SimulatedTest simulateTest(const Model& model, const ExamTest& test, char side, double threshold_Nm);
