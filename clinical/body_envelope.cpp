@@ -29,7 +29,7 @@ struct Station {
 constexpr Station kLeg[] = {
     {"femur", -8, 40, -2, 90, 82, 18},  {"femur", -8, -20, -2, 92, 84, 16}, {"femur", -6, -100, -4, 88, 82, 13},
     {"femur", 0, -200, 0, 77, 74, 10},  {"femur", 2, -300, 0, 66, 64, 8},   {"femur", 3, -380, 0, 61, 59, 7},
-    {"tibia", 3, 2, 0, 59, 57, 6},      {"tibia", -8, -60, 0, 55, 54, 5},   {"tibia", -20, -130, 0, 57, 55, 6},
+    {"tibia", 5, 2, 0, 63, 57, 6},      {"tibia", -8, -60, 0, 55, 54, 5},   {"tibia", -20, -130, 0, 57, 55, 6},
     {"tibia", -17, -210, 0, 49, 49, 5}, {"tibia", -9, -310, -1, 36, 36, 4}, {"tibia", -7, -380, -1, 37, 34, 3},
     {"tibia", -7, -430, 0, 46, 39, 3},  {"foot", -8, -30, 0, 48, 36, 4},
 };
@@ -269,12 +269,18 @@ std::vector<XrayVolume> softTissues(const Skeleton& skeleton, const std::vector<
   };
   for (const char side : {'r', 'l'})
     addEllipsoid("thorax", side, {-8, 112, 78}, {82, 118, 50}, kLungAttenuation_per_m - kMuscleAttenuation_per_m);
-  // Gas in the gut: where the colon runs.
-  addEllipsoid("lumbar", 'r', {60, 10, 92}, {17, 24, 20}, -kMuscleAttenuation_per_m);
-  addEllipsoid("lumbar", 'r', {66, 48, 86}, {14, 15, 17}, -kMuscleAttenuation_per_m);
-  addEllipsoid("lumbar", 'l', {52, 62, 88}, {16, 26, 16}, -kMuscleAttenuation_per_m);
-  addEllipsoid("pelvis", 'l', {8, 92, 46}, {15, 12, 22}, -kMuscleAttenuation_per_m);
-  addEllipsoid("pelvis", 'r', {-52, 42, 6}, {15, 20, 14}, -kMuscleAttenuation_per_m);
+  // Gas in the gut, where the colon runs: bubbles with soft rims, a small one inside a larger.
+  const auto addBubble = [&](const char* segment, char side, const Vector3d& center_mm, const Vector3d& radii_mm) {
+    addEllipsoid(segment, side, center_mm, radii_mm, -0.3 * kMuscleAttenuation_per_m);
+    addEllipsoid(segment, side, center_mm + Vector3d{1, 2, -1}, 0.8 * radii_mm, -0.3 * kMuscleAttenuation_per_m);
+  };
+  addBubble("lumbar", 'r', {60, 6, 92}, {13, 19, 15});
+  addBubble("lumbar", 'r', {66, 34, 84}, {11, 10, 13});
+  addBubble("lumbar", 'r', {58, 52, 95}, {9, 11, 9});
+  addBubble("lumbar", 'l', {52, 62, 88}, {12, 20, 11});
+  addBubble("lumbar", 'l', {50, 30, 98}, {9, 11, 10});
+  addBubble("pelvis", 'l', {8, 92, 46}, {10, 8, 15});
+  addBubble("pelvis", 'r', {-52, 42, 6}, {10, 14, 9});
   return tissues;
 }
 

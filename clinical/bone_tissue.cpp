@@ -67,42 +67,54 @@ TriangleMesh innerSurface(const TriangleMesh& mesh, const Build& build) {
   return inner;
 }
 
-/// Closed tube of marrow through the middle of the spongy space, pointed at both ends; nullopt where a shaft is too
-/// thin. Its axis and radii follow the inner surface slice by slice.
+/// Cross-section of a surface at a fraction of its height: middle and mean radius of the vertices near it.
+struct CrossSection {
+  Vector3d center = Vector3d::Zero();
+  double radius_m = 0;
+};
+std::optional<CrossSection> crossSection(const TriangleMesh& mesh, const Extent& extent, double fraction) {
+  constexpr int kEnough = 10;
+  for (double reach = 0.015; reach < 0.1; reach *= 1.5) {
+    std::vector<Vector3d> near;
+    for (const auto& p : mesh.vertices)
+      if (std::abs(extent.fraction(p.y()) - fraction) < reach) near.push_back(p);
+    if (int(near.size()) < kEnough) continue;
+    CrossSection section;
+    for (const auto& p : near) section.center += p / double(near.size());
+    for (const auto& p : near)
+      section.radius_m += std::hypot(p.x() - section.center.x(), p.z() - section.center.z()) / double(near.size());
+    section.center.y() = extent.top - fraction * (extent.top - extent.bottom);
+    return section;
+  }
+  return std::nullopt;
+}
+
+/// Closed tube of marrow through the middle of the spongy space, pointed at both ends; nullopt where a shaft has too
+/// few vertices. Its axis and radii follow the inner surface.
 std::optional<TriangleMesh> marrowCavity(const TriangleMesh& inner) {
-  constexpr int kSlices = 40, kAround = 24;
-  constexpr double kFrom = 0.20, kTo = 0.82;
+  constexpr int kSlices = 30, kAround = 24;
+  constexpr double kFrom = 0.20, kTo = 0.82, kShare = 0.9;
   const Extent extent = extentOf(inner);
-  std::vector<Vector3d> sum(kSlices, Vector3d::Zero());
-  std::vector<double> radius(kSlices, 0);
-  std::vector<int> count(kSlices, 0);
-  const auto sliceOf = [&](const Vector3d& p) {
-    return int(std::floor((extent.fraction(p.y()) - kFrom) / (kTo - kFrom) * kSlices));
-  };
-  const auto inRange = [](int slice) { return slice >= 0 && slice < kSlices; };
-  for (const auto& p : inner.vertices)
-    if (const int s = sliceOf(p); inRange(s)) sum[std::size_t(s)] += p, ++count[std::size_t(s)];
-  for (const int n : count)
-    if (n < 6) return std::nullopt;
-  for (const auto& p : inner.vertices)
-    if (const int s = sliceOf(p); inRange(s)) {
-      const Vector3d across = p - sum[std::size_t(s)] / count[std::size_t(s)];
-      radius[std::size_t(s)] += std::hypot(across.x(), across.z()) / count[std::size_t(s)];
-    }
+  std::vector<CrossSection> sections;
+  for (int s = 0; s < kSlices; ++s) {
+    const auto section = crossSection(inner, extent, kFrom + (kTo - kFrom) * (s + 0.5) / kSlices);
+    if (!section) return std::nullopt;
+    sections.push_back(*section);
+  }
   TriangleMesh tube;
   for (int s = 0; s < kSlices; ++s) {
-    const Vector3d center = sum[std::size_t(s)] / count[std::size_t(s)];
+    const auto& [center, radius_m] = sections[std::size_t(s)];
     const double along = (s + 0.5) / kSlices;
     const double taper = std::sqrt(smoothStep(along, 0, 0.25) * (1 - smoothStep(along, 0.75, 1)));
     for (int k = 0; k < kAround; ++k) {
       const double turn = 2 * std::numbers::pi * k / kAround;
-      const double r = std::max(0.9 * taper * radius[std::size_t(s)], 1e-5);
-      tube.vertices.push_back(center + r * Vector3d{std::sin(turn), 0, std::cos(turn)});
+      tube.vertices.push_back(center + std::max(kShare * taper * radius_m, 1e-5) *
+                                           Vector3d{std::sin(turn), 0, std::cos(turn)});
     }
   }
   const auto ends = std::int32_t(tube.vertices.size());
-  tube.vertices.push_back(sum.front() / count.front());
-  tube.vertices.push_back(sum.back() / count.back());
+  tube.vertices.push_back(sections.front().center + 1e-5 * Vector3d::UnitY());
+  tube.vertices.push_back(sections.back().center - 1e-5 * Vector3d::UnitY());
   for (std::int32_t k = 0; k < kAround; ++k) {
     const std::int32_t next = (k + 1) % kAround, last = (kSlices - 1) * kAround;
     tube.triangles.push_back({ends, k, next});
@@ -130,7 +142,7 @@ TriangleMesh smoothlySubdivided(const TriangleMesh& mesh) {
     if (is_new) {
       const Vector3d &p = mesh.vertices[std::size_t(a)], &q = mesh.vertices[std::size_t(b)];
       const Vector3d &m = normals[std::size_t(a)], &n = normals[std::size_t(b)];
-      const double limit_m = 0.12 * (q - p).norm();  // at creases the normals say little
+      const double limit_m = 0.07 * (q - p).norm();  // at creases the normals say little
       const double sagitta_m = std::clamp((q - p).dot(n - m) / 8, -limit_m, limit_m);
       const Vector3d across = m + n;
       fine.vertices.push_back((p + q) / 2 + sagitta_m * across / std::max(across.norm(), 1e-6));

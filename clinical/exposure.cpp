@@ -80,8 +80,10 @@ PixelField photons(const PixelField& attenuation, int width, const Exposure& exp
 }
 
 /// Takes away a share of what varies slowly inside the patient, so that hip and ankle show in one window; the open
-/// beam does not enter the average, which would leave halos along the skin.
+/// beam does not enter the average, which would leave halos along the skin, and is shown black.
 void equalize(PixelField& exponent, int width, const Exposure& exposure) {
+  constexpr float kMiddle = 2;  ///< where equalization changes nothing
+  constexpr float kBlack = float(-kGreyOfAir / kGreyPerUnit);
   PixelField inside(exponent.size()), masked(exponent.size());
   for (std::size_t i = 0; i < exponent.size(); ++i) {
     inside[i] = std::clamp(exponent[i] / float(kBodyThreshold), 0.0F, 1.0F);
@@ -89,15 +91,18 @@ void equalize(PixelField& exponent, int width, const Exposure& exposure) {
   }
   const double reach_px = exposure.equalization_reach_mm / exposure.pixel_mm;
   const PixelField sum = broadlyBlurred(masked, width, reach_px), weight = broadlyBlurred(inside, width, reach_px);
-  for (std::size_t i = 0; i < exponent.size(); ++i)
-    if (weight[i] > 1e-4F) exponent[i] -= float(exposure.equalization) * sum[i] / weight[i];
+  for (std::size_t i = 0; i < exponent.size(); ++i) {
+    const float mean = weight[i] > 1e-4F ? sum[i] / weight[i] : 0;
+    const float shown = exponent[i] - float(exposure.equalization) * (mean - kMiddle);
+    exponent[i] = inside[i] * shown + (1 - inside[i]) * kBlack;
+  }
 }
 
 void closeShutter(std::vector<std::uint16_t>& pixels, int width, const Exposure& exposure) {
   const int height = int(pixels.size()) / width, margin = int(std::lround(exposure.shutter_mm / exposure.pixel_mm));
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
-      if (std::min({u, v, width - 1 - u, height - 1 - v}) < margin)
+      if (std::min({u, v - exposure.first_open_row, width - 1 - u, height - 1 - v}) < margin)
         pixels[std::size_t(v) * std::size_t(width) + std::size_t(u)] = 0;
 }
 
@@ -119,13 +124,14 @@ Exposed expose(PixelField attenuation, int width, const Exposure& exposure) {
   Exposed out;
   out.pixels.resize(exponent.size());
   std::vector<float> body;  // a sample of the patient, for the window
+  const std::size_t first_seen = std::size_t(exposure.first_open_row) * std::size_t(width);
   constexpr float kWhite = float((1 << kExposedBits) - 1);
   for (std::size_t i = 0; i < exponent.size(); ++i) {
     const float grey = std::clamp(float(greyValueOf(double(exponent[i]))), 0.0F, kWhite);
     out.pixels[i] = std::uint16_t(std::lround(grey));
-    if (i % 61 == 0 && seen[i] > float(kBodyThreshold)) body.push_back(grey);
+    if (i % 61 == 0 && seen[i] > float(kBodyThreshold) && i >= first_seen) body.push_back(grey);
   }
-  if (exposure.shutter_mm > 0) closeShutter(out.pixels, width, exposure);
+  if (exposure.shutter_mm > 0 || exposure.first_open_row > 0) closeShutter(out.pixels, width, exposure);
   if (body.empty()) body = {0, kWhite};
   std::sort(body.begin(), body.end());
   const auto percentile = [&](double p) { return double(body[std::size_t(p * double(body.size() - 1))]); };

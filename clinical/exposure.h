@@ -23,7 +23,8 @@ struct Exposure {
   double blur_mm = 0.17;          ///< standard deviation of the detector's point spread
   double lead = 5;                ///< attenuation exponent of a marker
   double shutter_mm = 4;          ///< collimated margin, shown black
-  double equalization = 0.5;      ///< share of the large-scale differences that the presentation takes away
+  int first_open_row = 0;         ///< rows above are collimated too
+  double equalization = 0.55;     ///< share of the large-scale differences that the presentation takes away
   double equalization_reach_mm = 28;
   bool quantum_noise = true;
   std::uint64_t seed = 1;

@@ -24,18 +24,47 @@ std::string withoutSideOf(const std::string& parameter) {
 
 using Degrees = std::map<std::string, double>;
 
-/// Turns the ankles so that both feet lie flat.
-Posture withFlatFeet(const Skeleton& skeleton, Degrees& degrees) {
+/// Where a person puts his feet.
+struct Stance {
+  double half_width_m = 0;                    ///< of each ankle from the middle of the pelvis
+  std::map<std::string, double> toe_out_deg;  ///< by side
+};
+
+/// Turns hips and ankles so that the feet stand where `stance` says, flat: a few steps of a fixed-point iteration,
+/// each correcting every angle by what it alone would have to.
+Posture withFeetPlaced(const Skeleton& skeleton, const Stance& stance, Degrees& degrees) {
   for (int pass = 0;; ++pass) {
     const Posture q = postureFromDegrees(skeleton, degrees);
-    if (pass == 4) return q;
+    if (pass == 6) return q;
     const auto X_WB = segmentPoses(skeleton, q);
     for (const std::string side : {"r", "l"}) {
-      const Eigen::Matrix3d R = X_WB[std::size_t(skeleton.segmentIndex("foot_" + side))].linear();
+      const double out = side == "l" ? -1 : 1;  // away from the midline, along Z
+      const RigidTransform& X_WF = X_WB[std::size_t(skeleton.segmentIndex("foot_" + side))];
+      const Eigen::Vector3d p_WH = X_WB[std::size_t(skeleton.segmentIndex("femur_" + side))].translation();
+      const double leg_m = (p_WH - X_WF.translation()).norm();
+      const Eigen::Matrix3d R = X_WF.linear();
+      const double aside_m = out * (X_WF.translation().z() - X_WB[0].translation().z()) - stance.half_width_m;
+      degrees["hip_adduction_" + side] += aside_m / leg_m / kRadPerDeg;
+      degrees["hip_internal_rotation_" + side] +=
+          out * std::atan2(R(2, 0), R(0, 0)) / kRadPerDeg - stance.toe_out_deg.at(side);
       degrees["ankle_dorsiflexion_" + side] -= std::asin(R(1, 0)) / kRadPerDeg;
-      degrees["ankle_inversion_" + side] += (side == "l" ? -1 : 1) * std::asin(R(1, 2)) / kRadPerDeg;
+      degrees["ankle_inversion_" + side] += out * std::asin(R(1, 2)) / kRadPerDeg;
     }
   }
+}
+
+/// What moves the feet, heel to toe, to the middle of the lateral film without taking the pelvis to its edge.
+double centringShift_m(const Skeleton& skeleton, const Posture& q) {
+  constexpr double kMost_m = 0.055, kToesBeyondJoints_m = 0.03;
+  const auto X_WB = segmentPoses(skeleton, q);
+  double rear = 1e9, front = -1e9;
+  for (const auto& landmark : skeleton.landmarks)
+    if (skeleton.segments[std::size_t(landmark.segment)].name.starts_with("foot")) {
+      const double x = (X_WB[std::size_t(landmark.segment)] * landmark.p_BL).x();
+      rear = std::min(rear, x);
+      front = std::max(front, x);
+    }
+  return std::clamp(-(rear + front + kToesBeyondJoints_m) / 2, -kMost_m, kMost_m);
 }
 
 double lowestPoint_m(const Skeleton& skeleton, const Posture& q, const std::string& foot) {
@@ -47,25 +76,16 @@ double lowestPoint_m(const Skeleton& skeleton, const Posture& q, const std::stri
   return lowest;
 }
 
-/// Drops the right side of the pelvis by `list_deg`; the thighs keep their direction.
-Degrees withList(Degrees degrees, double list_deg) {
-  degrees["pelvis_list"] += list_deg;
-  degrees["hip_adduction_r"] -= list_deg;
-  degrees["hip_adduction_l"] += list_deg;
-  return degrees;
-}
-
-/// The obliquity of the pelvis that brings both soles to one height, by bisection.
-double levellingList_deg(const Skeleton& skeleton, const Degrees& degrees) {
-  double low = -20, high = 20;
+/// Sets the obliquity of the pelvis to what brings both soles to one height, by bisection.
+Posture withSolesLevel(const Skeleton& skeleton, const Stance& stance, Degrees& degrees) {
+  double low = -20, high = 20;  // the right side drops as the list grows
   for (int i = 0; i < 22; ++i) {
-    const double middle = (low + high) / 2;
-    Degrees trial = withList(degrees, middle);
-    const Posture q = withFlatFeet(skeleton, trial);
+    degrees["pelvis_list"] = (low + high) / 2;
+    const Posture q = withFeetPlaced(skeleton, stance, degrees);
     const bool right_is_lower = lowestPoint_m(skeleton, q, "foot_r") < lowestPoint_m(skeleton, q, "foot_l");
-    (right_is_lower ? high : low) = middle;
+    (right_is_lower ? high : low) = degrees["pelvis_list"];
   }
-  return (low + high) / 2;
+  return postureFromDegrees(skeleton, degrees);
 }
 
 /// Pixels per metre at `p_W`, in the plane across the beam: the mean over both image axes.
@@ -103,13 +123,14 @@ ShapeParameters drawPatientShape(const std::vector<ShapePrior>& priors, RandomSo
 
 Posture drawPatientPosture(const Skeleton& skeleton, double floor_m, RandomSource& random) {
   Degrees degrees;
+  Stance stance;
+  stance.half_width_m = 0.068 + 0.006 * random.truncatedNormal();
   const std::string front = random.uniform() < 0.5 ? "r" : "l";
   for (const std::string side : {"r", "l"}) {
     const double knee = random.uniform(2, 12);
     degrees["knee_flexion_" + side] = knee;
     degrees["hip_flexion_" + side] = knee / 2 + (side == front ? 3.5 : -2.5) + random.truncatedNormal();
-    degrees["hip_adduction_" + side] = -2 + 1.5 * random.truncatedNormal();
-    degrees["hip_internal_rotation_" + side] = 5 * random.truncatedNormal();
+    stance.toe_out_deg[side] = 7 + 4 * random.truncatedNormal();
     // Hands at the shoulders: the forearms stay clear of the pelvis in both views.
     degrees["shoulder_flexion_" + side] = 42;
     degrees["shoulder_adduction_" + side] = -8;
@@ -117,13 +138,12 @@ Posture drawPatientPosture(const Skeleton& skeleton, double floor_m, RandomSourc
   }
   degrees["pelvis_tilt"] = 3 * random.truncatedNormal();
   degrees["pelvis_rotation"] = 4 * random.truncatedNormal();
-  degrees["pelvis_tx"] = -0.035;  // the feet reach further forward than back
   degrees["pelvis_tz"] = 0.006 * random.truncatedNormal();
 
-  degrees = withList(degrees, levellingList_deg(skeleton, degrees));
-  const Posture q = withFlatFeet(skeleton, degrees);
+  const Posture q = withSolesLevel(skeleton, stance, degrees);
   const double lowest = std::min(lowestPoint_m(skeleton, q, "foot_r"), lowestPoint_m(skeleton, q, "foot_l"));
   degrees["pelvis_ty"] = floor_m + kSoleThickness_m - lowest;
+  degrees["pelvis_tx"] = centringShift_m(skeleton, q);
   return postureFromDegrees(skeleton, degrees);
 }
 

@@ -43,30 +43,42 @@ View nominalView(const FilmGeometry& film, SyntheticRig kind) {
 
 }  // namespace
 
-std::array<FilmGeometry, 2> filmGeometry(SyntheticRig kind) {
+std::string nameOf(SyntheticRig kind) {
+  return kind == SyntheticRig::ConeBeam ? "cone-beam" : "slot-scan";
+}
+
+std::array<FilmGeometry, 2> filmGeometry(SyntheticRig kind, int binning) {
   // Long-leg stand: three detector panels of 0.43 m and a little, 0.28 mm pixels; isocentre 0.25 / 0.35 m before it.
-  if (kind == SyntheticRig::ConeBeam)
-    return {FilmGeometry{"AP", "L\\F", 0.28, 3000, 2750, 1536, 4864}, {"LL", "A\\F", 0.28, 3000, 2650, 1536, 4864}};
+  std::array<FilmGeometry, 2> films{FilmGeometry{"AP", "L\\F", 0.28, 3000, 2750, 1536, 4864},
+                                    FilmGeometry{"LL", "A\\F", 0.28, 3000, 2650, 1536, 4864}};
   // Distances of the common slot scanner (987 and 918 mm to the isocentre, about 1.3 m to the detectors).
-  return {FilmGeometry{"PA", "L\\F", 0.25, 1300, 987, 1800, 7400}, {"LL", "A\\F", 0.25, 1300, 918, 1800, 7400}};
+  if (kind == SyntheticRig::SlotScan)
+    films = {FilmGeometry{"PA", "L\\F", 0.25, 1300, 987, 1800, 7400},
+             FilmGeometry{"LL", "A\\F", 0.25, 1300, 918, 1800, 7400}};
+  for (auto& film : films) {
+    film.pixel_mm *= binning;
+    film.width_px /= binning;
+    film.height_px /= binning;
+  }
+  return films;
 }
 
 double floorHeight_m(SyntheticRig kind) {
   return kind == SyntheticRig::ConeBeam ? -0.585 : -0.89;
 }
 
-BiplanarRig nominalRig(SyntheticRig kind) {
-  const auto films = filmGeometry(kind);
+BiplanarRig nominalRig(SyntheticRig kind, int binning) {
+  const auto films = filmGeometry(kind, binning);
   BiplanarRig rig;
   rig.views = {nominalView(films[0], kind), nominalView(films[1], kind)};
   rig.calibration.method = kind == SyntheticRig::ConeBeam ? "dicom_nominal" : "dicom_slot_scan";
   return rig;
 }
 
-BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed) {
-  BiplanarRig rig = nominalRig(kind);
+BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed, int binning) {
+  BiplanarRig rig = nominalRig(kind, binning);
   if (kind == SyntheticRig::SlotScan) return rig;
-  const auto films = filmGeometry(kind);
+  const auto films = filmGeometry(kind, binning);
   RandomSource random{seed, 11};
   for (std::size_t i = 0; i < 2; ++i) {
     View& view = rig.views[i];

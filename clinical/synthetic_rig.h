@@ -10,6 +10,7 @@
 namespace sinew {
 
 enum class SyntheticRig { ConeBeam, SlotScan };
+std::string nameOf(SyntheticRig kind);  ///< "cone-beam", "slot-scan": the command line's words
 
 /// How one film of a synthetic study is taken, in the words of its DICOM file: the nominal values that a machine
 /// writes.
@@ -23,18 +24,19 @@ struct FilmGeometry {
 };
 
 /// Cone beam: two long-leg films with the source 3 m from the detector, AP and left lateral. Slot scan: head to foot,
-/// PA (hung like AP) and left lateral, both fans at once.
-std::array<FilmGeometry, 2> filmGeometry(SyntheticRig kind);
+/// PA (hung like AP) and left lateral, both fans at once. `binning` joins that many pixels along rows and columns
+/// into one: smaller images of the same field, for tests.
+std::array<FilmGeometry, 2> filmGeometry(SyntheticRig kind, int binning = 1);
 
 /// Height of the floor on which the patient stands [m]; the origin is at the middle of the images.
 double floorHeight_m(SyntheticRig kind);
 
 /// The views as the DICOM attributes describe them.
-BiplanarRig nominalRig(SyntheticRig kind);
+BiplanarRig nominalRig(SyntheticRig kind, int binning = 1);
 
 /// The rig that really took the images. Slot scan: the nominal one. Cone beam: source and detector are some
 /// millimetres and tenths of a degree away from where they should be, as after moving a tube along its rails.
-BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed);
+BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed, int binning = 1);
 
 /// Writes view position, distances and pixel spacing into the tags.
 void setGeometryTags(Radiograph& film, const FilmGeometry& geometry, SyntheticRig kind);

@@ -14,8 +14,8 @@ struct Texture {
   double variation_per_m, grain_mm;  ///< s, g
   double across_mm, along_mm;        ///< standard deviation of the pattern across and along the body
 };
-constexpr Texture kTrabeculae{9.0, 1.0, 0.32, 0.75};
-constexpr Texture kMuscleBundles{1.5, 8.0, 3.0, 22.0};
+constexpr Texture kTrabeculae{7.5, 1.0, 0.28, 0.6};
+constexpr Texture kMuscleBundles{1.0, 8.0, 3.5, 14.0};
 
 void addTexture(const std::vector<TriangleMesh>& solids, const Texture& texture, const View& view, double pixel_mm,
                 std::uint64_t seed, PixelField& field, const Job& job) {
