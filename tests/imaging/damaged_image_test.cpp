@@ -1,4 +1,12 @@
 // Damaged files either read or are refused in one line: no crash, no huge allocation.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcrleerg.h>
+#include <dcmtk/dcmdata/dcrlerp.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmjpeg/djencode.h>
+#include <dcmtk/dcmjpeg/djrplol.h>
+#include <dcmtk/dcmjpls/djencode.h>
+#include <dcmtk/dcmjpls/djrparam.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -62,6 +70,34 @@ class DamagedImage : public testing::Test {
 TEST_F(DamagedImage, Dicom) {
   writeDicom(test::sampleRadiograph(), folder / "good.dcm");
   damage(readFile(folder / "good.dcm"), "bad.dcm");
+}
+
+TEST_F(DamagedImage, CompressedDicom) {
+  DJEncoderRegistration::registerCodecs();
+  DJLSEncoderRegistration::registerCodecs();
+  DcmRLEEncoderRegistration::registerCodecs();
+  const DJ_RPLossless jpeg;
+  const DJLSRepresentationParameter jpeg_ls{2, OFTrue};
+  const DcmRLERepresentationParameter rle;
+  const std::pair<E_TransferSyntax, const DcmRepresentationParameter*> codings[] = {
+      {EXS_JPEGProcess14SV1, &jpeg}, {EXS_JPEGLSLossless, &jpeg_ls}, {EXS_RLELossless, &rle}};
+  for (const auto& [syntax, parameter] : codings) {
+    writeDicom(test::sampleRadiograph(), folder / "good.dcm");
+    DcmFileFormat format;
+    ASSERT_TRUE(format.loadFile((folder / "good.dcm").c_str()).good());
+    ASSERT_TRUE(format.getDataset()->chooseRepresentation(syntax, parameter).good());
+    ASSERT_TRUE(format.saveFile((folder / "coded.dcm").c_str(), syntax).good());
+    const std::string good = readFile(folder / "coded.dcm");
+    ASSERT_TRUE(reads(good, "bad.dcm"));
+    const long before_kB = peak_kB();
+    std::mt19937 random{31};
+    for (int i = 0; i < 150; ++i) {
+      std::string bad = good;
+      bad[good.size() - 1 - random() % (good.size() / 2)] = char(random());  // in the code stream
+      reads(bad, "bad.dcm");
+    }
+    EXPECT_LT(peak_kB() - before_kB, 300'000);
+  }
 }
 
 TEST_F(DamagedImage, PngAndTiff) {
