@@ -21,14 +21,10 @@ void refuseUnfinished(const Case& c) {
   throw InputError{{"report", "stages", "every stage done and fresh", all}};
 }
 
-std::string isoDate(const std::string& dicom) {
-  return dicom.size() == 8 ? dicom.substr(0, 4) + "-" + dicom.substr(4, 2) + "-" + dicom.substr(6, 2) : dicom;
-}
-
 std::string imagingDate(const Case& c, const std::filesystem::path& case_dir) {
   if (c.images.empty()) return {};
   const auto& image = c.images.front();
-  return isoDate(readRadiograph(checkedFile(image.file, case_dir), image.declared_spacing_mm).tags.study_date);
+  return dateText(readRadiograph(checkedFile(image.file, case_dir), image.declared_spacing_mm).tags.study_date);
 }
 
 std::string orText(const std::string& text, const char* otherwise) {
@@ -53,7 +49,7 @@ std::vector<std::pair<std::string, std::string>> headerOf(const Case& c, const s
   return {{"Patient", orText(personText(p.name), "not recorded")},
           {"ID", orText(p.id, "not recorded")},
           {"Sex", sexText(p.sex)},
-          {"Born", orText(isoDate(p.birth_date), "not recorded")},
+          {"Born", orText(dateText(p.birth_date), "not recorded")},
           {"Height", measuredText(p.height_m, 100, 0, "cm")},
           {"Mass", measuredText(p.mass_kg, 1, 1, "kg")},
           {"Diagnosis", orText(p.diagnosis, "not recorded")},
@@ -92,7 +88,7 @@ std::vector<std::pair<std::string, std::string>> footerOf(const Case& c) {
           {"Landmarks",
            "skeleton fit " + rmsText(c.skeleton->rms_px) + ", triangulation " + rmsText(c.landmarks->rms_px)},
           {"Torque at the stop", thresholdsText(*c.exam_fit)},
-          {"Norms", "named below each table; \u2021 = not yet verified"}};
+          {"Norms", "sources in the annex; \u2021 = not yet verified"}};
 }
 
 std::vector<std::string> warningsOf(const Case& c) {

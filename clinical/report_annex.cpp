@@ -15,6 +15,12 @@ std::string readable(std::string text) {
   return text;
 }
 
+/// "femoral_head_center_r" -> "femoral head center, right".
+std::string landmarkText(const std::string& name) {
+  const std::string bare = readable(std::string{withoutSide(name)});
+  return bare.size() == name.size() ? bare : bare + (sideSign(name) < 0 ? ", left" : ", right");
+}
+
 const char* viewText(int view) {
   return view == 0 ? "frontal" : "lateral";
 }
@@ -38,7 +44,7 @@ ReportTable landmarkTable(const Case& c) {
   for (const auto& r : residuals) {
     if (table.rows.size() == kWorst) break;
     const auto sd = sd_mm.find(r.landmark);
-    table.rows.push_back({readable(r.landmark), viewText(r.view), signedText(r.residual_px.x(), 1),
+    table.rows.push_back({landmarkText(r.landmark), viewText(r.view), signedText(r.residual_px.x(), 1),
                           signedText(r.residual_px.y(), 1), numberText(r.sigmas, 1),
                           sd == sd_mm.end() ? "seen once" : numberText(sd->second, 1)});
   }
@@ -77,7 +83,7 @@ ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir
   table.columns = {"View", "Date", "Size, px", "Modality", "SOP instance UID", "SHA-256 (first 16)"};
   for (std::size_t i = 0; i < c.images.size(); ++i) {
     const auto image = readRadiograph(checkedFile(c.images[i].file, case_dir), c.images[i].declared_spacing_mm);
-    table.rows.push_back({viewText(int(i)), orNotRecorded(image.tags.study_date),
+    table.rows.push_back({viewText(int(i)), orNotRecorded(dateText(image.tags.study_date)),
                           std::to_string(image.width_px) + " x " + std::to_string(image.height_px),
                           orNotRecorded(image.tags.modality), orNotRecorded(image.tags.sop_instance_uid),
                           c.images[i].file.sha256.substr(0, 16)});

@@ -85,6 +85,17 @@ std::string factorText(const ExamFit& fit, const ExamProtocol& protocol, const L
   return low == high ? low : low + " to " + high;
 }
 
+/// In the protocol's order, right before left.
+std::vector<ExamComparison> inOrder(const ExamFit& fit, const ExamProtocol& protocol) {
+  auto tests = fit.tests;
+  const auto rank = [&](const ExamComparison& t) {
+    const auto it = std::ranges::find(protocol.tests, t.test, &ExamTest::id);
+    return std::pair{it - protocol.tests.begin(), t.side == 'l'};
+  };
+  std::ranges::stable_sort(tests, {}, rank);
+  return tests;
+}
+
 }  // namespace
 
 ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamProtocol& protocol) {
@@ -100,7 +111,7 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamPr
                    "Stop at, N\u00A0m",
                    "Limited by"};
   std::set<std::string> noted;
-  for (const auto& comparison : fit.tests) {
+  for (const auto& comparison : inOrder(fit, protocol)) {
     const ExamTest& test = protocol.test(comparison.test);
     table.rows.push_back({test.title, sideText(comparison.side), measuredText(comparison, exam), normText(test),
                           numberText(comparison.simulated_before_deg), numberText(comparison.simulated_after_deg),
@@ -184,7 +195,7 @@ std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& re
   std::vector<PassiveMomentPlot> plots;
   const Model before = deformedModel(reference, c.skeleton->shape);
   const Model after = withLengthFactors(before, c.exam_fit->length_factors);
-  for (const auto& comparison : c.exam_fit->tests) {
+  for (const auto& comparison : inOrder(*c.exam_fit, protocol)) {
     const ExamTest& test = protocol.test(comparison.test);
     PassiveMomentPlot plot;
     plot.title = test.title + ", " + (comparison.side == 'l' ? "left" : "right");

@@ -21,6 +21,8 @@ std::string numberText(double value, int decimals = 0);
 std::string signedText(double value, int decimals = 0);
 /// "Right" or "Left".
 std::string sideText(char side);
+/// A date from DICOM ("20260504") as 2026-05-04; any other text stays.
+std::string dateText(const std::string& date);
 /// A name from DICOM ("Hong^Gildong=...=...") as people write it.
 std::string personText(const std::string& dicom_name);
 

@@ -24,6 +24,10 @@ std::string sideText(char side) {
   return side == 'l' ? "Left" : "Right";
 }
 
+std::string dateText(const std::string& date) {
+  return date.size() == 8 ? date.substr(0, 4) + "-" + date.substr(4, 2) + "-" + date.substr(6, 2) : date;
+}
+
 std::string personText(const std::string& dicom_name) {
   std::string text;
   std::size_t from = 0;

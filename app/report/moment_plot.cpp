@@ -90,9 +90,10 @@ void drawMomentPlot(Ink& ink, const QRectF& box_mm, const PassiveMomentPlot& plo
     const QPointF p{axes.x(plot.simulated_after_deg), stop};
     ink.disc(p, 0.9, kAfter, true);
   }
-  ink.text({box_mm.left(), box_mm.bottom() - 4.2, box_mm.width(), 3},
-           "angle, deg (" + QString::fromStdString(plot.convention) + ")",
-           {.size_mm = kTick_mm, .align = Qt::AlignHCenter, .wrap = false});
+  const QString label = "angle, deg (" + QString::fromStdString(plot.convention) + ")";
+  Ink::TextStyle style{.size_mm = kTick_mm, .align = Qt::AlignHCenter, .wrap = false};
+  style.size_mm *= std::min(1.0, box_mm.width() / Ink::textWidth_mm(label, style));  // long conventions stay whole
+  ink.text({box_mm.left(), box_mm.bottom() - 4.2, box_mm.width(), 3}, label, style);
   ink.verticalText({box_mm.left() - 1.2, axes.box.top(), 3, axes.box.height()}, "moment, N m", {.size_mm = kTick_mm});
 }
 

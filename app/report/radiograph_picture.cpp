@@ -117,8 +117,10 @@ void drawRadiograph(Ink& ink, const QRectF& box_mm, const RadiographPicture& pic
   ink.text(frame.adjusted(0.8, 0.6, -0.8, 0), picture.right_letter, right);
   if (picture.px_per_100_mm > 0) {
     const double length = picture.px_per_100_mm * px_mm, x = frame.right() - 1.6, y = frame.bottom() - 1.5;
+    ink.fill({x - 3.2, y - std::max(length, 11.0) - 0.5, 4, std::max(length, 11.0) + 1}, Qt::black);
     ink.line({x, y - length}, {x, y}, 0.35, Qt::white);
-    ink.verticalText({x - 3.2, y - length, 2.6, length}, "100 mm", {.size_mm = 2.0, .colour = Qt::white});
+    ink.verticalText({x - 3.0, y - std::max(length, 11.0) / 2 - 8, 2.6, 16}, "100 mm",
+                     {.size_mm = 2.0, .colour = Qt::white});
   }
 }
 

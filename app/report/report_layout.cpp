@@ -149,7 +149,11 @@ std::vector<double> textSizes_mm(const std::vector<const ReportTable*>& tables, 
 QString warningText(const std::vector<std::string>& warnings, std::size_t most) {
   if (warnings.empty()) return "Warnings: none.";
   QString text = "Warnings (" + QString::number(warnings.size()) + "): ";
-  for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i) text += (i ? "; " : "") + q(warnings[i]);
+  for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i) {
+    QString one = q(warnings[i]);
+    if (one.endsWith('.')) one.chop(1);
+    text += (i ? "; " : "") + one;
+  }
   return text + (warnings.size() > most ? "; more in the annex." : ".");
 }
 

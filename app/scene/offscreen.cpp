@@ -77,8 +77,8 @@ void addAmbientOcclusion(vtkRenderer& renderer) {
   vtkNew<vtkSSAOPass> occlusion;
   occlusion->SetDelegatePass(steps);
   occlusion->SetRadius(0.05);  // m: hollows of the size of a joint
-  occlusion->SetBias(0.001);
-  occlusion->SetKernelSize(64);
+  occlusion->SetBias(0.004);
+  occlusion->SetKernelSize(32);
   occlusion->BlurOn();
   static_cast<vtkOpenGLRenderer&>(renderer).SetPass(occlusion);
 }
