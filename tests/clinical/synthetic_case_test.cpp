@@ -76,7 +76,7 @@ TEST(DrawSyntheticPatient, ExaminationShowsTheContractures) {
     } else if (entry.test == "silfverskioeld_knee_extended") {
       EXPECT_NEAR(change_deg, 0, 0.51);  // rounding
     } else if (entry.test == "staheli") {
-      EXPECT_NEAR(change_deg, 0, 3);  // hamstrings are slack there
+      EXPECT_GT(change_deg, 15);  // the hip stops before the joint's stop at 40 deg of extension
     }
   }
 }
