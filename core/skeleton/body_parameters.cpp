@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/skeleton/body_parameters_internal.h"
@@ -40,8 +41,10 @@ BodyParameters::BodyParameters(const Skeleton& skeleton, std::span<const ShapePr
                         std::to_string(prior.mean) + " +- " + std::to_string(prior.sd)}};
     mean_[i] = prior.mean;
     sd_[i] = prior.sd;
-    lower_[i] = std::max(-kFarthest_sd, (bounds.lower - prior.mean) / prior.sd);
-    upper_[i] = std::min(kFarthest_sd, (bounds.upper - prior.mean) / prior.sd);
+    // Ratios stay so close together that no bone is shorter than its heads; deformed angles have room.
+    const double farthest = isShapeAngle(prior.parameter) ? std::numeric_limits<double>::infinity() : kFarthest_sd;
+    lower_[i] = std::max(-farthest, (bounds.lower - prior.mean) / prior.sd);
+    upper_[i] = std::min(farthest, (bounds.upper - prior.mean) / prior.sd);
   }
 
   const Eigen::VectorXd posture_sd = standingPostureSd(skeleton);

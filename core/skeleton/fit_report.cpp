@@ -107,16 +107,18 @@ void describeResiduals(const SightingList& sightings, std::span<const View> view
   }
   fit.rms_px = std::sqrt(sum_px2 / static_cast<double>(sightings.items.size()));
 
-  std::vector<const LandmarkResidual*> worst;
-  constexpr double kGross_sigma = 5;
-  for (const auto& r : fit.residuals)
-    if (r.sigmas > kGross_sigma) worst.push_back(&r);
-  std::ranges::sort(worst, [](const auto* a, const auto* b) { return a->sigmas > b->sigmas; });
-  constexpr std::size_t kMost = 5;
-  for (std::size_t i = 0; i < std::min(kMost, worst.size()); ++i)
-    fit.warnings.push_back({"outlier", worst[i]->landmark + " in view " + std::to_string(worst[i]->view + 1) +
-                                           " lies " + rounded(worst[i]->residual_px.norm()) + " px (" +
-                                           rounded(worst[i]->sigmas) + " sigma) from the fitted bone"});
+  std::vector<std::size_t> worst;
+  constexpr double kDoubtful_sigma = 5;
+  for (std::size_t i = 0; i < fit.residuals.size(); ++i)
+    if (fit.residuals[i].sigmas > kDoubtful_sigma || sightings.items[i].left_out) worst.push_back(i);
+  std::ranges::sort(worst, [&](auto a, auto b) { return fit.residuals[a].sigmas > fit.residuals[b].sigmas; });
+  for (const std::size_t i : worst) {
+    const LandmarkResidual& r = fit.residuals[i];
+    fit.warnings.push_back({"outlier", r.landmark + " in view " + std::to_string(r.view + 1) + " lies " +
+                                           rounded(r.residual_px.norm()) + " px (" + rounded(r.sigmas) +
+                                           " sigma) from the fitted bone" +
+                                           (sightings.items[i].left_out ? " and was left out" : "")});
+  }
 
   std::vector<double> sigmas;
   for (const auto& r : fit.residuals) sigmas.push_back(r.sigmas);

@@ -16,6 +16,7 @@ struct UsableSighting {
   int view = 0;
   Eigen::Vector2d uv_px;
   double sigma_px = 1;
+  bool left_out = false;  ///< a gross error
 };
 struct SightingList {
   std::vector<int> landmarks;  ///< indices into skeleton.landmarks, each once

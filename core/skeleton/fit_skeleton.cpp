@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/ceres_job_internal.h"
 #include "core/skeleton/bone_figures_internal.h"
@@ -45,10 +46,16 @@ class SkeletonFitter {
     const std::vector<int> root =
         up_to([&](int i) { return i == BodyParameters::kSize || (i >= posture && i < posture + 6); });
     const std::vector<int> pose = up_to([&](int i) { return i == BodyParameters::kSize || i >= posture; });
-    solve(root, Loss::Wide, 0, 0.1);
-    solve(pose, Loss::Wide, 0.1, 0.3);
-    solve(observable, Loss::Wide, 0.3, 0.7);
-    fit.outcome = solve(observable, Loss::Stated, 0.7, 1);
+    approach(root, 0, 0.1);
+    approach(pose, 0.1, 0.3);
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds && lossWidth_sigma() > options_.robust_loss_sigma; ++round)
+      approach(observable, 0.3 + 0.4 * round / kRounds, 0.3 + 0.4 * (round + 1) / kRounds);
+    // Where the residuals stay larger than stated (a wrong geometry, say), so does the loss; describe() warns of it.
+    const SolveSettings final_settings{lossWidth_sigma(), options_.max_iterations, 1e-8};
+    fit.outcome = solve(observable, final_settings, 0.7, 0.9);
+    if (fit.outcome == Outcome::Converged && leaveOutGrossErrors())
+      fit.outcome = solve(observable, final_settings, 0.9, 1);
     if (fit.outcome != Outcome::Converged) return fit;
     describe(fit);
     return fit;
@@ -83,32 +90,68 @@ class SkeletonFitter {
     return observable;
   }
 
-  /// On the way to the solution the loss is as wide as the residuals are, or a start some hundred sigma away would
-  /// crawl along the linear branch; at the end it is what the options say.
-  enum class Loss { Wide, Stated };
+  struct SolveSettings {
+    double loss_sigma;
+    int max_iterations;
+    double function_tolerance;
+  };
 
-  double lossWidth_sigma(Loss loss) const {
-    if (loss == Loss::Stated) return options_.robust_loss_sigma;
+  /// On the way to the solution the loss is as wide as the residuals are: a start some hundred sigma away would crawl
+  /// along the linear branch of the stated one.
+  double lossWidth_sigma() const { return std::max(options_.robust_loss_sigma, 2 * median(distances_sigma())); }
+
+  /// Distance of every sighting from the body z, in sigmas; infinite behind the source.
+  std::vector<double> distances_sigma() const {
     const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
     std::vector<double> sigmas;
-    for (const auto& s : sightings_.items)
-      if (const auto uv = project(views_[s.view], points[s.point]))
-        sigmas.push_back((s.uv_px - *uv).norm() / s.sigma_px);
-    if (sigmas.empty()) return options_.robust_loss_sigma;
-    std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<long>(sigmas.size() / 2));
-    return std::max(options_.robust_loss_sigma, 2 * sigmas[sigmas.size() / 2]);
+    for (const auto& s : sightings_.items) {
+      const auto uv = project(views_[s.view], points[s.point]);
+      sigmas.push_back(uv ? (s.uv_px - *uv).norm() / s.sigma_px : std::numeric_limits<double>::infinity());
+    }
+    return sigmas;
   }
 
-  Outcome solve(const std::vector<int>& active, Loss loss, double from, double to) {
+  static double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+
+  /// Marks what lies far outside the rest; the worst first and not more than a few, so that a wrong geometry, which
+  /// puts everything far outside, is not explained away. Returns whether there is any.
+  bool leaveOutGrossErrors() {
+    constexpr double kMedianOfInliers = 1.1774;  // of a Rayleigh distribution
+    constexpr double kLargestShare = 0.15;
+    const std::vector<double> sigmas = distances_sigma();
+    const double limit = options_.gross_error_sigma * std::max(1.0, median(sigmas) / kMedianOfInliers);
+    std::vector<std::size_t> gross;
+    for (std::size_t i = 0; i < sigmas.size(); ++i)
+      if (sigmas[i] > limit) gross.push_back(i);
+    std::ranges::sort(gross, [&](std::size_t a, std::size_t b) { return sigmas[a] > sigmas[b]; });
+    const double most = kLargestShare * static_cast<double>(sigmas.size());
+    if (static_cast<double>(gross.size()) > most) gross.resize(static_cast<std::size_t>(most));
+    for (const std::size_t i : gross) sightings_.items[i].left_out = true;
+    return !gross.empty();
+  }
+
+  /// Some steps towards the solution; how they end does not matter yet.
+  void approach(const std::vector<int>& active, double from, double to) {
+    solve(active, {lossWidth_sigma(), 10, 1e-3}, from, to);
+  }
+
+  Outcome solve(const std::vector<int>& active, const SolveSettings& settings, double from, double to) {
     if (job_.cancelled()) return Outcome::Cancelled;
-    const double width_sigma = lossWidth_sigma(loss);
+    if (!std::ranges::all_of(distances_sigma(), [](double d) { return std::isfinite(d); }))
+      return Outcome::NotConverged;  // part of the body stands behind a source
     SharedBody shared{reference_, body_, sightings_.landmarks, active, z_};
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &shared;
     ceres::Problem problem{problem_options};
-    for (const auto& s : sightings_.items)
+    for (const auto& s : sightings_.items) {
+      if (s.left_out) continue;
       problem.AddResidualBlock(new SightingCost{shared, s.point, views_[s.view], s.uv_px, s.sigma_px},
-                               new ceres::HuberLoss{width_sigma}, shared.x());
+                               new ceres::HuberLoss{settings.loss_sigma}, shared.x());
+    }
     std::vector<double> weights;
     for (const int i : active) weights.push_back(body_.priorWeight(i));
     problem.AddResidualBlock(new PriorCost{weights}, nullptr, shared.x());
@@ -116,16 +159,17 @@ class SkeletonFitter {
       problem.SetParameterLowerBound(shared.x(), i, body_.lower(active[i]));
       problem.SetParameterUpperBound(shared.x(), i, body_.upper(active[i]));
     }
-    CeresJob monitor{job_, "fit", options_.max_iterations, from, to};
-    auto solver = solverOptions(monitor, options_.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
-    solver.function_tolerance = loss == Loss::Wide ? 1e-4 : 1e-8;
+    CeresJob monitor{job_, "fit", settings.max_iterations, from, to};
+    auto solver = solverOptions(monitor, settings.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
+    solver.function_tolerance = settings.function_tolerance;
+    solver.initial_trust_region_radius = 1e8;  // the priors regularize: full Gauss-Newton steps from the start
     solver.parameter_tolerance = 1e-9;
     solver.gradient_tolerance = 1e-9;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     z_ = shared.z();
     const Outcome outcome = outcomeOf(summary);
-    if (outcome == Outcome::Converged && loss == Loss::Stated) rememberCovariance(problem, active);
+    if (outcome == Outcome::Converged) rememberCovariance(problem, active);
     return outcome;
   }
 

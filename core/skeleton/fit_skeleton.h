@@ -34,6 +34,7 @@ std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_di
 struct FitOptions {
   int max_iterations = 100;
   double robust_loss_sigma = 3;     ///< Huber: residuals beyond this many sigma count linearly
+  double gross_error_sigma = 8;     ///< what lies farther out after that is left out, named, and fitted without
   double undetermined_ratio = 0.9;  ///< a parameter whose SD stays above this share of its prior is undetermined
 };
 

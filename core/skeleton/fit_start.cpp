@@ -109,7 +109,9 @@ Similarity startOfFit(std::span<const Eigen::Vector3d> body, std::span<const Vie
       seen_body.push_back(body[a.point]);
       seen_world.push_back(*p);
     }
-  if (const auto aligned = alignPoints(seen_body, seen_world); aligned && aligned->scale > 0) return *aligned;
+  if (const auto aligned = alignPoints(seen_body, seen_world);
+      aligned && aligned->scale > 0 && std::isfinite(misfit(*aligned, body, views, sightings)))
+    return *aligned;
 
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const auto& sighting : sightings) center += body[sighting.point] / static_cast<double>(sightings.size());

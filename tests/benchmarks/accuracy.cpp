@@ -11,8 +11,8 @@ namespace {
 
 void print(const char* rig, const char* noise, const sinew::AccuracyStudy& study) {
   std::printf("\n### %s, %s\n\n", rig, noise);
-  std::printf("%d bodies, %d not converged, median %.0f ms a fit.\n\n", study.bodies, study.not_converged,
-              study.median_ms);
+  std::printf("%d bodies, %d not converged, median %.0f ms of processor time a fit.\n\n", study.bodies,
+              study.not_converged, study.median_ms);
   std::printf("| figure | unit | determined | bias | SD | largest error | 95 %% half width | coverage |\n");
   std::printf("|---|---|---:|---:|---:|---:|---:|---:|\n");
   for (const auto& row : study.rows)

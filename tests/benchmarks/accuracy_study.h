@@ -19,7 +19,7 @@ struct AccuracyRow {
 struct AccuracyStudy {
   std::vector<AccuracyRow> rows;
   int bodies = 0, not_converged = 0;
-  double median_ms = 0;  ///< of one fit
+  double median_ms = 0;  ///< processor time of one fit
 
   const AccuracyRow& row(const std::string& quantity) const;
 };

@@ -166,6 +166,48 @@ TEST_F(FitSkeleton, AGrossErrorIsNamedAndBarelyMovesTheResult) {
   EXPECT_LT(residual.residual_px.x(), -100);  // observed minus projected
 }
 
+TEST_F(FitSkeleton, SeveralGrossErrorsAreLeftOutAndNamed) {
+  draw(7);
+  auto sightings = seen(1.0);
+  for (const std::size_t i : {3u, 20u, 41u, 62u, 87u}) sightings[i].uv_px += Eigen::Vector2d{250, -180};
+  const SkeletonFit result = fit(sightings);
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  EXPECT_EQ(std::ranges::count_if(result.warnings,
+                                  [](const Warning& w) { return w.message.find("left out") != std::string::npos; }),
+            5);
+  for (const std::size_t i : {87u, 62u, 41u, 20u, 3u}) sightings.erase(sightings.begin() + static_cast<long>(i));
+  const SkeletonFit without = fit(sightings);
+  for (std::size_t i = 0; i < without.figures.size(); ++i) {
+    EXPECT_NEAR(result.figures[i].value, without.figures[i].value, 1e-3) << without.figures[i].quantity;
+    EXPECT_NEAR(result.figures[i].upper95, without.figures[i].upper95, 1e-3) << without.figures[i].quantity;
+  }
+}
+
+TEST_F(FitSkeleton, ASeverelyDeformedLegIsNotPulledBackToThePopulation) {
+  shape.sides[0].femur.torsion_rad = -50 * kRadPerDeg;  // anteversion of 62 deg
+  shape.sides[0].femur.varus_rad = 22 * kRadPerDeg;
+  shape.sides[0].tibia.torsion_rad = 35 * kRadPerDeg;
+  shape.sides[1].femur.elongation = 0.85;
+  posture = postureFromDegrees(skeleton, {{"knee_flexion_r", 40}, {"hip_flexion_r", 30}});
+  expectExact(fit(seen()));
+  const SkeletonFit noisy = fit(seen(1.0));
+  const auto truth = boneFigures(skeleton, shape, posture);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double sd = (noisy.figures[i].upper95 - noisy.figures[i].lower95) / 3.92;
+    EXPECT_LT(std::abs(noisy.figures[i].value - truth[i].value), 4 * sd) << truth[i].quantity << truth[i].side;
+  }
+}
+
+TEST_F(FitSkeleton, AWrongGeometryIsSaid) {
+  draw(3);
+  const auto sightings = seen(1.0);
+  test::placeView(views[1], -Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(), {0.05, 0.58, -1.6});  // moved
+  const SkeletonFit result = fit(sightings);
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  EXPECT_THAT(result.warnings, Contains(Field(&Warning::code, "residuals_exceed_sigma")));
+  EXPECT_GT(result.rms_px, 30);  // not explained away by leaving out most of the sightings
+}
+
 TEST_F(FitSkeleton, SaysWhatTheImagesDoNotShow) {
   draw(8);
   std::erase_if(protocol, [](const std::string& name) {
