@@ -181,10 +181,11 @@ double distance(const Chain& chain, const Vector3d& p) {
     const Vector3d q = p - a.center - t * axis;
     const double depth = a.half_depth + t * (b.half_depth - a.half_depth);
     const double width = a.half_width + t * (b.half_width - a.half_width);
-    const double u = q.dot(a.forward) / depth, w = q.dot(a.right) / width;
-    const double least = std::min(depth, width);
-    const double beyond = q.dot(axis) / (axis.norm() * least);  // only past the ends
-    nearest = std::min(nearest, (std::sqrt(u * u + w * w + beyond * beyond) - 1) * least);
+    const double u = q.dot(a.forward), w = q.dot(a.right), least = std::min(depth, width);
+    // What is left over lies past the ends, or off the plane of a section that a bent joint has tilted.
+    const double rest2 = std::max(0.0, q.squaredNorm() - u * u - w * w);
+    const double k = std::sqrt(u * u / (depth * depth) + w * w / (width * width) + rest2 / (least * least));
+    nearest = std::min(nearest, (k - 1) * least);
   }
   return nearest;
 }
