@@ -2,10 +2,10 @@
 #include <array>
 
 #include "clinical/case_io.h"
+#include "clinical/phantom_calibration.h"
 #include "clinical/stage_runs.h"
 #include "core/skeleton/landmark_protocol.h"
 #include "core/text.h"
-#include "imaging/calibrate.h"
 #include "imaging/rig_from_dicom.h"
 
 namespace sinew {
@@ -44,19 +44,6 @@ void expectSameSize(const View& view, const Radiograph& image, std::size_t i, co
   if (view.width_px == image.width_px && view.height_px == image.height_px) return;
   throw InputError{{where, viewName(i), "an image of " + sizeText(view.width_px, view.height_px) + " as calibrated",
                     sizeText(image.width_px, image.height_px)}};
-}
-
-BeadCalibration calibrateFromPhantom(const PhantomImages& phantom, const PipelineContext& context, const Job& job) {
-  const auto object = loadCalibrationObject(checkedFile(phantom.beads, context.case_dir));
-  std::array<Radiograph, 2> images;
-  std::array<std::vector<DetectedBead>, 2> beads;
-  for (std::size_t i = 0; i < 2; ++i) {
-    job.report(0.1 + 0.3 * static_cast<double>(i), "beads of the phantom, " + viewName(i));
-    images[i] = readRadiograph(checkedFile(phantom.images[i], context.case_dir));
-    beads[i] = detectBeads(images[i], {}, job);
-  }
-  job.report(0.7, "geometry from the beads");
-  return calibrateFromBeads(object, beads, rigFromDicom(images[0], images[1]), {}, job);
 }
 
 std::string calibrationSummary(const BiplanarRig& rig) {
@@ -130,10 +117,14 @@ StageRun runCalibration(Case& c, const PipelineContext& context, const Job& job)
     throw InputError{{"calibration", "geometry", "images of a phantom or a rig file", "both"}};
   const auto images = readPair(c, context);
   StageRun run;
+  std::size_t beads = 0;
   if (c.phantom) {
-    auto calibration = calibrateFromPhantom(*c.phantom, context, job);
+    const auto file = [&](const FileReference& reference) { return checkedFile(reference, context.case_dir); };
+    auto calibration =
+        calibrateFromPhantom({file(c.phantom->images[0]), file(c.phantom->images[1])}, file(c.phantom->beads), job);
     run.outcome = calibration.outcome;
     if (run.outcome != Outcome::Converged) return run;
+    beads = calibration.residuals.size();
     c.rig = std::move(calibration.rig);
   } else {
     c.rig = c.imported_rig ? *c.imported_rig : rigFromDicom(images[0], images[1]);
@@ -141,6 +132,7 @@ StageRun runCalibration(Case& c, const PipelineContext& context, const Job& job)
   for (std::size_t i = 0; i < 2; ++i) expectSameSize(c.rig->views[i], images[i], i, "calibration");
   addWarnings(run.warnings, c.rig->calibration.warnings);
   run.summary = calibrationSummary(*c.rig);
+  if (beads) run.summary += ", " + std::to_string(beads) + " beads seen";
   return run;
 }
 

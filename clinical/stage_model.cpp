@@ -77,7 +77,6 @@ StageRun runMusculature(Case& c, const PipelineContext& context) {
 StageRun runExam(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   const auto protocol = loadExamProtocol(context.resource_dir);
-  addWarnings(run.warnings, checkExam(c.exam, protocol));
   if (std::ranges::none_of(c.exam.entries, [](const auto& e) { return e.measured_deg.has_value(); }))
     run.warnings.push_back({"nothing_measured", "no test was measured: muscle lengths follow the bones alone"});
   if (!c.patient.mass_kg)

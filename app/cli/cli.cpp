@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "app/cli/commands.h"
+#include "app/cli/resource_folder.h"
 #include "core/text.h"
 #include "core/version.h"
 
@@ -79,9 +80,25 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
 }
 
 void addCommands(Commands& commands) {
+  addRunCommands(commands);
+  addNewCommand(commands);
   addStatusCommand(commands);
   addRigCommands(commands);
   addTriangulateCommand(commands);
+  addFitCommand(commands);
+  addExamCommand(commands);
+  addModelCommands(commands);
+  addEvaluateCommand(commands);
+  addCurveCommand(commands);
+  // Listed in the help; app/main.cpp opens the window.
+  auto& window =
+      addCommand(commands.app, "window", "open the window, with a case if one is named", "sinew window mycase");
+  window.add_option("CASE", "case folder");
+  window.callback([&commands] {
+    commands.chosen = []() -> ExitStatus {
+      throw InputError{{"sinew window", "", "'window' as the first word", "options before it"}};
+    };
+  });
 }
 
 ExitStatus parseAndRun(Session& session, int argc, const char* const* argv) {
@@ -126,9 +143,7 @@ CLI::App& addCommand(CLI::App& parent, const std::string& name, const std::strin
 }
 
 int runCli(int argc, const char* const* argv, ReportWriter write_report) {
-  std::error_code error;
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  Session session{executable, std::move(write_report)};
+  Session session{executablePath(), std::move(write_report)};
   try {
     return static_cast<int>(parseAndRun(session, argc, argv));
   } catch (const std::exception& fault) {

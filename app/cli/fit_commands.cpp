@@ -105,7 +105,6 @@ void addExam(Commands& commands) {
         throw InputError{{"sinew exam", "--mass-kg", "1 ... 400", std::to_string(o->mass_kg)}};
       const auto protocol = loadExamProtocol(session.resourceDir());
       const PhysicalExam exam = o->exam.empty() ? PhysicalExam{} : loadExam(o->exam);
-      session.warn(checkExam(exam, protocol));
       const Model model = session.model(o->model);
       const auto fit = applyExam(model, exam, protocol, o->mass_kg, session.job());
       session.warn(fit.warnings);

@@ -4,9 +4,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
+#include "clinical/phantom_calibration.h"
 #include "core/text.h"
 #include "imaging/biplanar_rig.h"
-#include "imaging/biplanar_rig_json.h"
+#include "imaging/rig_from_dicom.h"
 
 namespace sinew {
 namespace {
@@ -88,6 +89,7 @@ BiplanarRig importRig(const std::string& format, const std::vector<std::filesyst
     return loadRig(files[0]);
   }
   needs(2);
+  if (format == "dicom") return rigFromDicom(readRadiograph(files[0]), readRadiograph(files[1]));
   return importTextCalibration(files, format);
 }
 
@@ -99,17 +101,45 @@ void addImport(CLI::App& rig, Commands& commands) {
   auto options = std::make_shared<Options>();
   auto& command = addCommand(rig, "import", "turn another program's calibration into a rig file",
                              "sinew rig import --format autoscoper cam01.txt cam02.txt -o rig.json");
-  command.add_option("--format", options->format, "autoscoper, mayacam or json")->required();
+  command.add_option("--format", options->format, "autoscoper, mayacam, dicom or json")->required();
   command.add_option("FILES", options->files, "one file a view, frontal first; one for json")->required();
   command.add_option("-o,--output", options->output, "rig file to write");
   command.callback([&commands, options] {
     commands.chosen = [&session = commands.session, options] {
-      static const std::vector<std::string> kFormats = {"autoscoper", "mayacam", "json"};
+      static const std::vector<std::string> kFormats = {"autoscoper", "mayacam", "dicom", "json"};
       if (std::ranges::find(kFormats, options->format) == kFormats.end())
-        throw InputError{{"sinew rig import", "--format", "autoscoper, mayacam or json",
+        throw InputError{{"sinew rig import", "--format", "autoscoper, mayacam, dicom or json",
                           "'" + options->format + "'" + didYouMean(options->format, kFormats)}};
       finish(session, importRig(options->format, options->files), options->output);
       return ExitStatus::Done;
+    };
+  });
+}
+
+void addCalibrate(CLI::App& rig, Commands& commands) {
+  struct Options {
+    std::vector<std::filesystem::path> images;
+    std::filesystem::path beads;
+    std::string output;
+  };
+  auto o = std::make_shared<Options>();
+  auto& command = addCommand(rig, "calibrate", "cone-beam pair from two images of a bead phantom",
+                             "sinew rig calibrate --image ap.dcm --image lateral.dcm --beads beads.csv -o rig.json");
+  command.add_option("--image", o->images, "image of the phantom, twice: frontal, then lateral")->required();
+  command.add_option("--beads", o->beads, "its beads (CSV name,x_mm,y_mm,z_mm[,diameter_mm])")->required();
+  command.add_option("-o,--output", o->output, "rig file to write");
+  command.callback([&commands, o] {
+    commands.chosen = [&session = commands.session, o] {
+      if (o->images.size() != 2)
+        throw InputError{{"sinew rig calibrate", "--image", "two images", std::to_string(o->images.size())}};
+      const auto calibration = calibrateFromPhantom({o->images[0], o->images[1]}, o->beads, session.job());
+      if (calibration.outcome == Outcome::Converged) {
+        finish(session, calibration.rig, o->output);
+      } else {
+        session.note(std::string{nameOf(calibration.outcome)});
+        session.result({{"format", "sinew.rig_info"}, {"version", 1}, {"outcome", nameOf(calibration.outcome)}}, "");
+      }
+      return statusOf(calibration.outcome);
     };
   });
 }
@@ -129,10 +159,11 @@ void addInfo(CLI::App& rig, Commands& commands) {
 }  // namespace
 
 void addRigCommands(Commands& commands) {
-  auto& rig = addCommand(commands.app, "rig", "view geometry: import, inspect",
+  auto& rig = addCommand(commands.app, "rig", "view geometry: import, calibrate, inspect",
                          "sinew rig import --format autoscoper cam01.txt cam02.txt -o rig.json");
   rig.require_subcommand(1);
   addImport(rig, commands);
+  addCalibrate(rig, commands);
   addInfo(rig, commands);
 }
 

@@ -79,6 +79,7 @@ void addDemo(Commands& commands) {
     std::filesystem::path folder = "sinew-demo";
     unsigned seed = 1;
     std::string rig = "cone-beam";
+    int binning = 1;
   };
   auto o = std::make_shared<Options>();
   auto& command = addCommand(commands.app, "demo",
@@ -88,6 +89,9 @@ void addDemo(Commands& commands) {
   command.add_option("--seed", o->seed, "which patient")->capture_default_str();
   command.add_option("--rig", o->rig, "cone-beam (pair calibrated from a bead phantom) or slot-scan")
       ->capture_default_str();
+  command.add_option("--binning", o->binning, "detector pixels joined into one: 2 quarters size and time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4));
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const std::vector<std::string> rigs = {"cone-beam", "slot-scan"};
@@ -98,9 +102,16 @@ void addDemo(Commands& commands) {
       SyntheticOptions options;
       options.resource_dir = session.resourceDir();
       options.seed = o->seed;
+      options.binning = o->binning;
       options.rig = o->rig == rigs[0] ? SyntheticRig::ConeBeam : SyntheticRig::SlotScan;
       const auto patient = drawSyntheticPatient(session.reference(), options);
       Case c = writeSyntheticCase(patient, session.reference(), options, o->folder, session.job());
+      if (session.job().cancelled()) {
+        session.result(
+            {{"format", "sinew.demo"}, {"version", 1}, {"outcome", "cancelled"}, {"stages", Json::array()}},
+            "cancelled\n");
+        return ExitStatus::NotConverged;
+      }
       const RunReport report = runCase(c, o->folder, {}, session);
       return finishRun(c, o->folder, report, "sinew.demo", session);
     };

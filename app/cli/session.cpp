@@ -4,10 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <vector>
-
-#include "core/file.h"
+#include "app/cli/resource_folder.h"
 
 namespace sinew {
 namespace {
@@ -21,11 +18,6 @@ std::string oneLine(std::string text) {
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
-}
-
-bool isResourceFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  return std::filesystem::exists(folder / "skeleton" / "reference_skeleton.json", error);
 }
 
 }  // namespace
@@ -42,25 +34,11 @@ void Session::start() {
 }
 
 const std::filesystem::path& Session::resourceDir() {
-  if (resource_dir_) return *resource_dir_;
-  std::vector<std::filesystem::path> places;
-  if (!options.resources.empty()) {
-    places = {options.resources};
-  } else if (const char* set = std::getenv("SINEW_RESOURCE_DIR"); set && *set) {
-    places = {set};
-  } else {
-    const auto prefix = executable_.parent_path().parent_path();
-    places = {prefix / "resources", prefix / "share" / "sinew" / "resources"};
+  if (!resource_dir_) {
+    resource_dir_ = findResourceFolder(executable_, options.resources);
+    spdlog::debug("resources: {}", resource_dir_->string());
   }
-  std::string tried;
-  for (const auto& place : places) {
-    if (isResourceFolder(place)) {
-      spdlog::debug("resources: {}", place.string());
-      return resource_dir_.emplace(std::filesystem::absolute(place));
-    }
-    tried += (tried.empty() ? "" : ", ") + place.string();
-  }
-  throw InputError{{"resources", "", "a folder with skeleton/reference_skeleton.json", "none in " + tried}};
+  return *resource_dir_;
 }
 
 Job Session::job() {

@@ -1,7 +1,7 @@
+#include <cstdio>
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "app/cli/text_table.h"
 #include "clinical/case_io.h"
 #include "clinical/pipeline.h"
 
@@ -47,13 +47,15 @@ Json stageJson(const Case& c, Stage stage) {
 ExitStatus showStatus(const std::filesystem::path& folder, Session& session) {
   const Case c = loadCase(folder);
   Json stages = Json::array(), files = Json::array();
-  std::vector<std::vector<std::string>> rows;
+  std::string lines;
   std::string notes;
   for (const Stage stage : kStages) {
     stages.push_back(stageJson(c, stage));
     const StageRecord* record = recordOf(c, stage);
     const std::string missing = missingInput(c, stage);
-    rows.push_back({nameOf(stage), nameOf(stateOf(c, stage)), missing.empty() && record ? record->summary : missing});
+    char line[64];
+    std::snprintf(line, sizeof line, "%-12s %-9s ", nameOf(stage).c_str(), nameOf(stateOf(c, stage)).c_str());
+    lines += line + (missing.empty() && record ? record->summary : missing) + "\n";
     if (record)
       for (const auto& w : record->warnings) notes += "warning: " + nameOf(stage) + ": " + w.message + "\n";
   }
@@ -62,8 +64,7 @@ ExitStatus showStatus(const std::filesystem::path& folder, Session& session) {
     files.push_back({{"path", file.path}, {"sha256", file.sha256}, {"intact", found.empty()}, {"found", found}});
     if (!found.empty()) notes += "damaged: " + file.path + ": " + found + "\n";
   }
-  session.result({{"format", "sinew.status"}, {"version", 1}, {"stages", stages}, {"files", files}},
-                 textTable({"stage", "state", ""}, rows) + notes);
+  session.result({{"format", "sinew.status"}, {"version", 1}, {"stages", stages}, {"files", files}}, lines + notes);
   return ExitStatus::Done;
 }
 

@@ -1,0 +1,24 @@
+#include "clinical/phantom_calibration.h"
+
+#include <string>
+
+#include "imaging/rig_from_dicom.h"
+
+namespace sinew {
+
+BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>& images,
+                                     const std::filesystem::path& beads, const Job& job) {
+  const CalibrationObject object = loadCalibrationObject(beads);
+  std::array<Radiograph, 2> radiographs;
+  std::array<std::vector<DetectedBead>, 2> detected;
+  for (std::size_t i = 0; i < 2; ++i) {
+    job.report(0.1 + 0.3 * static_cast<double>(i), "beads of the phantom, view " + std::to_string(i + 1));
+    radiographs[i] = readRadiograph(images[i]);
+    detected[i] = detectBeads(radiographs[i]);
+    if (job.cancelled()) return {.outcome = Outcome::Cancelled};
+  }
+  job.report(0.7, "geometry from the beads");
+  return calibrateFromBeads(object, detected, rigFromDicom(radiographs[0], radiographs[1]), {}, job);
+}
+
+}  // namespace sinew

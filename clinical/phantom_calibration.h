@@ -1,0 +1,15 @@
+#pragma once
+#include <array>
+#include <filesystem>
+
+#include "core/job.h"
+#include "imaging/calibrate.h"
+
+namespace sinew {
+
+/// The pair of views in which two images show a bead phantom: beads found in the images, geometry started from what
+/// their DICOM attributes say. @param beads CSV name,x_mm,y_mm,z_mm[,diameter_mm]. @throws InputError.
+BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>& images,
+                                     const std::filesystem::path& beads, const Job& job = {});
+
+}  // namespace sinew

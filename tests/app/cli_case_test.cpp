@@ -1,0 +1,202 @@
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/file.h"
+#include "tests/app/cli_support.h"
+
+namespace sinew {
+namespace {
+
+using test::documentOf;
+using test::ProgramResult;
+using test::sinewProgram;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// The demo patient, made once for all tests of this file.
+struct Demo {
+  test::TemporaryFolder folder;
+  ProgramResult result;
+  std::string path() const { return (folder / "case").string(); }
+};
+
+const Demo& demo() {
+  static const Demo* made = [] {
+    auto* d = new Demo;
+    d->result = sinewProgram({"demo", "--out", d->path(), "--seed", "5", "--binning", "2", "--json"});
+    return d;
+  }();
+  return *made;
+}
+
+/// A copy of the demo case that a test may change.
+std::string copyOfDemo(const test::TemporaryFolder& folder) {
+  const auto copy = folder / "copy";
+  std::filesystem::copy(demo().path(), copy, std::filesystem::copy_options::recursive);
+  return copy.string();
+}
+
+std::vector<std::string> stageValues(const Json& document, const std::string& member) {
+  std::vector<std::string> values;
+  for (const auto& stage : document["stages"]) values.push_back(stage[member]);
+  return values;
+}
+
+TEST(CliCase, DemoGoesTheWholeWayAndStatesItsTruth) {
+  ASSERT_EQ(demo().result.status, 0) << demo().result.err;
+  const Json document = documentOf(demo().result);
+  EXPECT_EQ(document["format"], "sinew.demo");
+  EXPECT_EQ(stageValues(document, "name"), (std::vector<std::string>{"images", "calibration", "landmarks", "skeleton",
+                                                                     "musculature", "exam", "report"}));
+  EXPECT_THAT(stageValues(document, "outcome"), Each(std::string{"converged"}));
+  EXPECT_THAT(readFile(document["files"]["report"].get<std::string>()), StartsWith("%PDF"));
+  EXPECT_EQ(documentOf(sinewProgram({"model", "validate", document["files"]["model"], "--json"}))["valid"], true);
+  int within = 0, all = 0;
+  for (const auto& row : document["truth_comparison"]) {
+    if (row["lower95"].is_null()) continue;
+    ++all;
+    within += row["lower95"] <= row["truth"] && row["truth"] <= row["upper95"];
+  }
+  EXPECT_GT(all, 10);
+  EXPECT_GE(within, all * 8 / 10);  // 95 % each, correlated within one patient
+}
+
+TEST(CliCase, ARunOfAFinishedCaseDoesNothing) {
+  const test::TemporaryFolder folder;
+  const std::string copy = copyOfDemo(folder);
+  const std::string before = readFile(copy + "/case.json");
+  const ProgramResult result = sinewProgram({"run", copy});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("up to date"), HasSubstr("truth"), HasSubstr("report.pdf")));
+  EXPECT_EQ(readFile(copy + "/case.json"), before);
+}
+
+TEST(CliCase, StaleStagesAreSaidAndRunAgain) {
+  const test::TemporaryFolder folder;
+  const std::string copy = copyOfDemo(folder);
+  Json c = parseJson(readFile(copy + "/case.json"), "case");
+  c["sightings"][0]["u_px"] = c["sightings"][0]["u_px"].get<double>() + 1;
+  writeFileAtomically(copy + "/case.json", jsonText(c));
+  const Json status = documentOf(sinewProgram({"status", copy, "--json"}));
+  EXPECT_EQ(stageValues(status, "state"),
+            (std::vector<std::string>{"done", "done", "stale", "stale", "stale", "stale", "stale"}));
+
+  const ProgramResult refused = sinewProgram({"report", copy, "--json"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(documentOf(refused)["error"]["found"].get<std::string>(), HasSubstr("Landmarks: stale"));
+
+  const ProgramResult again = sinewProgram({"run", copy, "--to", "skeleton", "--json"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(stageValues(documentOf(again), "outcome"),
+            (std::vector<std::string>{"done", "done", "converged", "converged"}));
+}
+
+TEST(CliCase, DamageIsReported) {
+  const test::TemporaryFolder folder;
+  const std::string copy = copyOfDemo(folder);
+  writeFileAtomically(copy + "/results/model.json", "{}");
+  const ProgramResult status = sinewProgram({"status", copy});
+  EXPECT_EQ(status.status, 0);
+  EXPECT_THAT(status.out, HasSubstr("damaged: results/model.json"));
+  const std::string text = readFile(copy + "/case.json");
+  writeFileAtomically(copy + "/case.json", text.substr(0, text.size() / 2));
+  const ProgramResult broken = sinewProgram({"run", copy});
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_THAT(broken.err, AllOf(HasSubstr("case.json: line "), HasSubstr("cut off")));
+  EXPECT_EQ(readFile(copy + "/case.json"), text.substr(0, text.size() / 2));
+}
+
+TEST(CliCase, ADemoNeverOverwritesOtherFiles) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "thesis.txt", "years of work");
+  const ProgramResult result = sinewProgram({"demo", "--out", folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("other files, which are kept"));
+  EXPECT_EQ(readFile(folder / "thesis.txt"), "years of work");
+  const ProgramResult rig = sinewProgram({"demo", "--rig", "slotscan"});
+  EXPECT_EQ(rig.status, 2);
+  EXPECT_THAT(rig.err, HasSubstr("nearest: slot-scan"));
+}
+
+TEST(CliCase, NewMakesACaseFromTheFilesOfAnother) {
+  const test::TemporaryFolder folder;
+  const std::string made = (folder / "made").string();
+  const std::string from = demo().path();
+  const ProgramResult result = sinewProgram(
+      {"new", made, "--image", from + "/images/view1.dcm", "--image", from + "/images/view2.dcm", "--mass-kg", "70"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json c = parseJson(readFile(made + "/case.json"), "case");
+  EXPECT_EQ(c["images"][0]["sha256"], sha256OfFile(from + "/images/view1.dcm"));
+  EXPECT_EQ(c["patient"]["mass_kg"], 70.0);
+  EXPECT_FALSE(c["patient"]["id"].get<std::string>().empty());  // from the DICOM file
+  EXPECT_THAT(result.out + result.err, Not(HasSubstr(c["patient"]["name"].get<std::string>())));
+  const ProgramResult again =
+      sinewProgram({"new", made, "--image", from + "/images/view1.dcm", "--image", from + "/images/view2.dcm"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("not overwritten"));
+
+  // No landmark was picked: a run goes as far as it can; asking for more is an error.
+  const ProgramResult run = sinewProgram({"run", made});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("no landmark has been picked"));
+  const ProgramResult more = sinewProgram({"run", made, "--to", "skeleton", "--json"});
+  EXPECT_EQ(more.status, 2);
+  EXPECT_THAT(documentOf(more)["error"]["message"].get<std::string>(), HasSubstr("no landmark has been picked"));
+  EXPECT_EQ(documentOf(more)["stages"].size(), 2u);
+}
+
+TEST(CliCase, WrongStageNamesAreAnsweredWithTheNearest) {
+  const ProgramResult result = sinewProgram({"run", demo().path(), "--to", "skelton"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("nearest: skeleton"));
+}
+
+TEST(CliCase, RunTriangulatesTheRealWristPair) {
+  SINEW_NEEDS_EXTERNAL("biplane_wrist/beads.csv");
+  const auto data = external_file.parent_path();
+  const test::TemporaryFolder folder;
+  const std::string rig = (folder / "rig.json").string(), picks = (folder / "picks.csv").string();
+  const std::string made = (folder / "wrist").string();
+  writeFileAtomically(picks, test::wristSightings(external_file));
+  ASSERT_EQ(sinewProgram({"rig", "import", "--format", "autoscoper", data / "xr_calib_wrist_cam01.txt",
+                          data / "xr_calib_wrist_cam02.txt", "-o", rig})
+                .status,
+            0);
+  const ProgramResult created =
+      sinewProgram({"new", made, "--image", data / "xr_rad_uln_cam01_UND.0099.tif", "--image",
+                    data / "xr_rad_uln_cam02_UND.0099.tif", "--rig", rig, "--sightings", picks});
+  ASSERT_EQ(created.status, 0) << created.err;
+  const ProgramResult run = sinewProgram({"run", made, "--json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(
+      stageValues(documentOf(run), "outcome"),
+      (std::vector<std::string>{"converged", "converged", "converged", "missing", "blocked", "blocked", "blocked"}));
+  const Json landmarks = parseJson(readFile(made + "/case.json"), "case")["results"]["landmarks"];
+  EXPECT_EQ(landmarks["points"].size(), 4u);
+  EXPECT_LT(landmarks["rms_px"].get<double>(), 0.5);
+  const ProgramResult further = sinewProgram({"run", made, "--to", "skeleton"});
+  EXPECT_EQ(further.status, 2);
+  EXPECT_THAT(further.err, HasSubstr("no known landmark of the skeleton"));
+}
+
+TEST(CliCase, AnInterruptEndsInOrder) {
+  const test::TemporaryFolder folder;
+  test::Program program{{SINEW_EXECUTABLE, "demo", "--out", folder / "case"}};
+  for (int i = 0; i < 600 && program.errSoFar().empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ::kill(program.pid(), SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 3) << result.err;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path(), error))
+    EXPECT_THAT(entry.path().filename().string(), Not(StartsWith("."))) << "a temporary file was left";
+}
+
+}  // namespace
+}  // namespace sinew

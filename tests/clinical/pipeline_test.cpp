@@ -1,0 +1,217 @@
+#include "clinical/pipeline.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <sstream>
+
+#include "clinical/case_io.h"
+#include "clinical/synthetic_case.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "imaging/radiograph.h"
+#include "tests/support/resources.h"
+#include "tests/support/temporary_folder.h"
+
+namespace sinew {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const Model& referenceModel() {
+  static const Model model = loadReferenceModel(test::resourceDir());
+  return model;
+}
+
+std::string complaintOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+/// A grey image of the size of a view, as a DICOM file.
+FileReference writeImage(const View& view, const std::string& position, const std::filesystem::path& folder,
+                         const std::string& name) {
+  Radiograph image;
+  image.width_px = view.width_px;
+  image.height_px = view.height_px;
+  image.bits_stored = 12;
+  std::vector<std::uint16_t> pixels(std::size_t(view.width_px) * std::size_t(view.height_px), 1000);
+  for (std::size_t i = 0; i < pixels.size(); i += 7) pixels[i] = std::uint16_t(i % 4000);
+  image.pixels = std::make_shared<const std::vector<std::uint16_t>>(std::move(pixels));
+  image.window_center = 2000, image.window_width = 4000;
+  image.tags.modality = "DX";
+  image.tags.view_position = position;
+  std::filesystem::create_directories((folder / name).parent_path());
+  writeDicom(image, folder / name);
+  return {name, sha256OfFile(folder / name)};
+}
+
+/// A drawn patient seen through a known rig: everything that stages read, without the time to render radiographs.
+class PipelineTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticOptions options;
+    options.resource_dir = test::resourceDir();
+    options.seed = 3;
+    options.binning = 4;  // small images: what is in them does not matter here
+    const auto patient = drawSyntheticPatient(referenceModel(), options);
+    c_.patient = patient.patient;
+    c_.sightings = patient.sightings;
+    c_.exam = patient.exam;
+    c_.truth = patient.truth;
+    c_.imported_rig = patient.true_rig;
+    c_.images = {{writeImage(patient.true_rig.views[0], "AP", folder_.path(), "images/view1.dcm"), {}},
+                 {writeImage(patient.true_rig.views[1], "LL", folder_.path(), "images/view2.dcm"), {}}};
+    context_.resource_dir = test::resourceDir();
+    context_.case_dir = folder_.path();
+    context_.reference = &referenceModel();
+    context_.write_report = [](const Case&, const std::filesystem::path&, const std::filesystem::path& pdf) {
+      writeFileAtomically(pdf, "%PDF-1.7 test");
+    };
+  }
+
+  void runTo(Stage last) {
+    for (const Stage stage : kStages) {
+      c_ = runStage(c_, stage, context_);
+      ASSERT_EQ(c_.stages.at(stage).outcome, Outcome::Converged) << nameOf(stage);
+      ASSERT_EQ(stateOf(c_, stage), StageState::Done) << nameOf(stage);
+      if (stage == last) return;
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  Case c_;
+  PipelineContext context_;
+};
+
+TEST_F(PipelineTest, GoesTheWholeWay) {
+  runTo(Stage::Report);
+  EXPECT_EQ(readFile(checkedFile(*c_.report, folder_.path())), "%PDF-1.7 test");
+  const Model model = loadModel(checkedFile(*c_.model, folder_.path()), referenceModel());
+  EXPECT_EQ(model.shape, c_.skeleton->shape);
+  EXPECT_EQ(model.length_factors, c_.exam_fit->length_factors);
+  EXPECT_THAT(c_.exam_fit->tests, ::testing::Not(IsEmpty()));
+  for (const auto& t : compareWithTruth(c_))
+    if (t.quantity == "femur_length") {
+      EXPECT_NEAR(t.estimate, t.truth, 6);  // mm; three SD of a length at picks of 1 mm
+    }
+  EXPECT_TRUE(caseFromJson(caseToJson(c_), "case") == c_);
+  for (const auto& [stage, record] : c_.stages) {
+    EXPECT_GE(record.seconds, 0) << nameOf(stage);
+    EXPECT_THAT(record.summary, ::testing::Not(HasSubstr(c_.patient.name))) << nameOf(stage);
+  }
+}
+
+TEST_F(PipelineTest, AStageWaitsForThoseBeforeIt) {
+  EXPECT_THAT(complaintOf([&] { runStage(c_, Stage::Landmarks, context_); }),
+              HasSubstr("stage landmarks: images: expected done, found ready"));
+  runTo(Stage::Skeleton);
+  c_.sightings[0].uv_px.x() += 2;
+  EXPECT_THAT(complaintOf([&] { runStage(c_, Stage::Skeleton, context_); }),
+              HasSubstr("stage skeleton: landmarks: expected done, found stale"));
+  EXPECT_THAT(complaintOf([&] { runStage(c_, Stage::Report, context_); }), HasSubstr("found stale"));
+}
+
+TEST_F(PipelineTest, ACancelledStageKeepsTheEarlierResultAndSaysSo) {
+  runTo(Stage::Skeleton);
+  const auto before = c_.skeleton->shape;
+  std::stop_source stop;
+  stop.request_stop();
+  const Case after = runStage(c_, Stage::Skeleton, context_, {.report_to = {}, .stop = stop.get_token()});
+  EXPECT_EQ(after.stages.at(Stage::Skeleton).outcome, Outcome::Cancelled);
+  ASSERT_TRUE(after.skeleton);
+  EXPECT_EQ(after.skeleton->shape, before);
+  EXPECT_EQ(stateOf(after, Stage::Skeleton), StageState::Stale);
+  EXPECT_THAT(reasonsAgainstReport(after), Contains("Skeleton: stale"));
+}
+
+TEST_F(PipelineTest, ModelOfAFinishedExaminationKeepsItsLengthsWhenMadeAgain) {
+  runTo(Stage::Exam);
+  const auto model = c_.model;
+  c_ = runStage(c_, Stage::Musculature, context_);
+  EXPECT_EQ(c_.model, model);
+  EXPECT_EQ(stateOf(c_, Stage::Exam), StageState::Done);
+}
+
+TEST_F(PipelineTest, AReportThatCannotBeDrawnLeavesTheEarlierOne) {
+  runTo(Stage::Report);
+  context_.write_report = [](const Case&, const std::filesystem::path&, const std::filesystem::path& pdf) {
+    writeFileAtomically(pdf, "half a page");
+    throw InputError{"report: no font"};
+  };
+  EXPECT_THROW(runStage(c_, Stage::Report, context_), InputError);
+  EXPECT_EQ(readFile(checkedFile(*c_.report, folder_.path())), "%PDF-1.7 test");
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results")) files += entry.is_regular_file();
+  EXPECT_EQ(files, 2);  // model and report: nothing half-written
+}
+
+TEST_F(PipelineTest, UnusableImagesAreNamed) {
+  Case c = c_;
+  c.images[1] = c.images[0];
+  EXPECT_THAT(complaintOf([&] { runStage(c, Stage::Images, context_); }), HasSubstr("the same file twice"));
+  c = c_;
+  c.imported_rig->views[1].width_px += 10;
+  c = runStage(c, Stage::Images, context_);
+  EXPECT_THAT(complaintOf([&] { runStage(c, Stage::Calibration, context_); }),
+              AllOf(HasSubstr("view 2"), HasSubstr("as calibrated")));
+  writeFileAtomically(folder_ / "images/view2.dcm", "not the file that was imported");
+  EXPECT_THAT(complaintOf([&] { runStage(c_, Stage::Images, context_); }), HasSubstr("changed or damaged"));
+}
+
+TEST_F(PipelineTest, WarnsOfWhatNobodyPickedOrMeasured) {
+  std::erase_if(c_.sightings, [](const Sighting& s) { return s.name == "asis_r"; });
+  c_.sightings.push_back({"asis_rr", 0, {10, 10}, 1});
+  c_.exam.entries.clear();
+  c_.patient.mass_kg.reset();
+  runTo(Stage::Exam);
+  const auto codes = [&](Stage stage, const std::string& code) {
+    return ::testing::Value(c_.stages.at(stage).warnings, Contains(Field(&Warning::code, code)));
+  };
+  EXPECT_TRUE(codes(Stage::Landmarks, "landmarks_missing"));
+  EXPECT_TRUE(codes(Stage::Landmarks, "unknown_landmark"));
+  EXPECT_TRUE(codes(Stage::Exam, "nothing_measured"));
+  EXPECT_TRUE(codes(Stage::Exam, "mass_unknown"));
+}
+
+TEST(Pipeline, ARealWristPairIsTriangulatedAndThenLacksKnownLandmarks) {
+  SINEW_NEEDS_EXTERNAL("biplane_wrist/beads.csv");
+  const auto data = external_file.parent_path();
+  const test::TemporaryFolder folder;
+  Case c;
+  c.images = {{importFile(data / "xr_rad_uln_cam01_UND.0099.tif", folder.path(), "images/view1.tif"), {}},
+              {importFile(data / "xr_rad_uln_cam02_UND.0099.tif", folder.path(), "images/view2.tif"), {}}};
+  const std::vector<std::filesystem::path> calibration = {data / "xr_calib_wrist_cam01.txt",
+                                                          data / "xr_calib_wrist_cam02.txt"};
+  c.imported_rig = importTextCalibration(calibration, "autoscoper");
+  std::map<std::string, Eigen::Vector3d> truth_m;
+  std::istringstream in{readFile(external_file)};
+  for (std::string line; std::getline(in, line);) {
+    const auto cells = splitCsvLine(line);
+    if (cells.size() != 8 || cells[0] == "bead") continue;
+    const auto value = [&](std::size_t i) { return parseNumber(cells[i], "beads", "value"); };
+    c.sightings.push_back({cells[0], 0, {value(1), value(2)}, 0.5});
+    c.sightings.push_back({cells[0], 1, {value(3), value(4)}, 0.5});
+    truth_m[cells[0]] = Eigen::Vector3d{value(5), value(6), value(7)} / 1000;
+  }
+  PipelineContext context{test::resourceDir(), folder.path(), &referenceModel(), {}};
+  for (const Stage stage : {Stage::Images, Stage::Calibration, Stage::Landmarks}) c = runStage(c, stage, context);
+  ASSERT_EQ(c.landmarks->points.size(), 4u);
+  EXPECT_LT(c.landmarks->rms_px, 0.5);
+  for (const auto& point : c.landmarks->points)  // 0.2 mm: twice the accuracy stated with the table
+    EXPECT_LT((point.p_WL - truth_m.at(point.name)).norm(), 0.2e-3) << point.name;
+  EXPECT_EQ(stateOf(c, Stage::Skeleton), StageState::Missing);
+  EXPECT_EQ(stateOf(c, Stage::Musculature), StageState::Blocked);
+  EXPECT_THAT(complaintOf([&] { runStage(c, Stage::Skeleton, context); }), HasSubstr("no known landmark"));
+}
+
+}  // namespace
+}  // namespace sinew
