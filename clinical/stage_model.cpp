@@ -28,6 +28,13 @@ std::string skeletonSummary(const SkeletonFit& fit) {
   return text;
 }
 
+/// The model of the fitted bones, before the examination.
+Model fittedModel(const Case& c, const Model& reference) {
+  Model model = deformedModel(reference, c.skeleton->shape);
+  model.name = "patient";
+  return model;
+}
+
 FileReference storeModel(const Model& model, const PipelineContext& context) {
   const auto file = context.case_dir / kModelPath;
   saveModel(model, file);
@@ -81,7 +88,7 @@ StageRun runExam(Case& c, const PipelineContext& context, const Job& job) {
     run.warnings.push_back({"nothing_measured", "no test was measured: muscle lengths follow the bones alone"});
   if (!c.patient.mass_kg)
     run.warnings.push_back({"mass_unknown", "body mass is not known: the examiner's torque is that for 75 kg"});
-  const Model model = deformedModel(*context.reference, c.skeleton->shape);
+  const Model model = fittedModel(c, *context.reference);
   c.exam_fit = applyExam(model, c.exam, protocol, c.patient.mass_kg.value_or(kReferenceMass_kg), job);
   addWarnings(run.warnings, c.exam_fit->warnings);
   run.outcome = c.exam_fit->outcome;
@@ -119,8 +126,7 @@ StageRun runReport(Case& c, const PipelineContext& context) {
 
 std::optional<Model> patientModel(const Case& c, const Model& reference) {
   if (!c.skeleton) return std::nullopt;
-  Model model = deformedModel(reference, c.skeleton->shape);
-  model.name = "patient";
+  Model model = fittedModel(c, reference);
   if (c.exam_fit && stateOf(c, Stage::Exam) == StageState::Done)
     model = withLengthFactors(model, c.exam_fit->length_factors);
   return model;
