@@ -69,7 +69,8 @@ std::string calibrationText(const Case& c) {
   std::string method = record.method;
   std::ranges::replace(method, '_', ' ');
   std::string text = method + " " + orText(record.id, "without id") + ", " + rmsText(record.rms_px);
-  if (std::isfinite(record.accuracy_mm)) text += ", about " + numberText(record.accuracy_mm, 1) + " mm";
+  if (std::isfinite(record.accuracy_mm))
+    text += record.accuracy_mm < 0.1 ? ", better than 0.1 mm" : ", about " + numberText(record.accuracy_mm, 1) + " mm";
   return text;
 }
 

@@ -31,7 +31,7 @@ SyntheticExam drawExam(const Model& reference, const ShapeParameters& shape, dou
   RandomSource contracture_source{options.seed, 4}, reading_source{options.seed, 5};
   SyntheticExam drawn;
   drawn.length_factors = drawContractures(protocol, contracture_source);
-  drawn.diagnosis = "Synthetic patient: short hamstrings and hip flexors on both sides, short gastrocnemius on one";
+  drawn.diagnosis = "Synthetic: short hamstrings, hip flexors";
   drawn.exam.examiner = "Sinew (simulated)";
   drawn.exam.date = "2026-01-05";
   const Model patient = withLengthFactors(deformedModel(reference, shape), drawn.length_factors);

@@ -1,7 +1,6 @@
 #include "app/report/report_pdf.h"
 
 #include <QBuffer>
-#include <QGuiApplication>
 #include <QImage>
 #include <QPageLayout>
 #include <QPageSize>
@@ -9,27 +8,13 @@
 #include <QPdfWriter>
 #include <cmath>
 
+#include "app/report/gui_application.h"
 #include "app/report/report_layout.h"
 #include "core/error.h"
 #include "core/file.h"
 
 namespace sinew {
 namespace {
-
-/// Fonts need a QGuiApplication. A program without one gets one that needs no display; it lives as long as the
-/// process.
-void haveGuiApplication() {
-  if (QCoreApplication::instance()) {
-    require(qobject_cast<QGuiApplication*>(QCoreApplication::instance()) != nullptr,
-            "the report needs a QGuiApplication; this program made a QCoreApplication");
-    return;
-  }
-  static int argument_count = 3;
-  static char name[] = "sinew", option[] = "-platform", platform[] = "offscreen";
-  static char* arguments[] = {name, option, platform, nullptr};
-  static auto* const application = new QGuiApplication{argument_count, arguments};
-  Q_UNUSED(application);
-}
 
 /// The page fills the device, whatever its resolution; Ink's unit is 0.01 mm.
 void paintPage(QPainter& painter, const ReportPage& page) {
