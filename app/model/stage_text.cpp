@@ -133,6 +133,7 @@ QString readableName(const std::string& name) {
   if (text.endsWith("_l")) side = tr(", left");
   if (!side.isEmpty()) text.chop(2);
   text.replace('_', ' ');
+  if (text == "hka") text = "HKA angle";
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text + side;
 }

@@ -56,7 +56,12 @@ std::shared_ptr<const Model> Workspace::patientModel() {
 }
 
 void Workspace::run(std::vector<Stage> stages) {
-  const StageServices services{resource_dir_, [this] { return reference(); }, write_report_};
+  StageServices services{resource_dir_, [this] { return reference(); }, {}};
+  if (write_report_)
+    services.write_report = [this](const Case& c, const std::filesystem::path& case_dir,
+                                   const std::filesystem::path& pdf) {
+      write_report_(c, case_dir, pdf, *reference(), resource_dir_);
+    };
   if (!runStages(document_, jobs_, services, std::move(stages)))
     emit problem(tr("Another computation is still going on: wait for it or cancel it."));
 }
@@ -82,6 +87,7 @@ void Workspace::saveCase() {
 void Workspace::makeDemo(const std::filesystem::path& folder, bool slot_scan) {
   const bool started = jobs_.start(tr("Make the demo patient"), [=, this](const Job& job) -> JobRunner::Finish {
     SyntheticOptions options;
+    options.resource_dir = resource_dir_;
     if (slot_scan) options.rig = SyntheticRig::SlotScan;
     const auto model = reference();
     const auto patient = drawSyntheticPatient(*model, options);

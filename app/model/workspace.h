@@ -17,7 +17,10 @@ namespace sinew {
 class Workspace : public QObject {
   Q_OBJECT
  public:
-  using ReportWriter = decltype(StageServices::write_report);
+  /// Draws the report; supplied by the application, because it needs fonts. Called on a worker thread.
+  using ReportWriter =
+      std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf,
+                         const Model& reference, const std::filesystem::path& resource_dir)>;
 
   Workspace(std::filesystem::path resource_dir, ReportWriter write_report, QObject* parent = nullptr);
 

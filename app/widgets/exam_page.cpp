@@ -135,13 +135,14 @@ QWidget* ExamPage::makeTestCard(const ExamTest& test) {
   auto* card = new Card;
   auto* head = new QHBoxLayout;
   head->addWidget(makeLabel(QString::fromStdString(test.title), "heading"));
-  auto* convention = new QLabel{QString::fromStdString(test.convention)};
-  convention->setProperty("badge", "ready");
   head->addStretch();
-  head->addWidget(convention);
   card->content().addLayout(head);
   auto* protocol = makeLabel(QString::fromStdString(test.protocol), "small");
   protocol->setWordWrap(true);
+  auto* convention = makeLabel(tr("Convention: %1").arg(QString::fromStdString(test.convention)), "small");
+  convention->setStyleSheet("font-weight: 600; color: " + colour::kPrimaryDark.name());
+  convention->setWordWrap(true);
+  card->content().addWidget(convention);
   card->content().addWidget(protocol);
   auto* facts = makeLabel(tr("%1  ·  %2  ·  stop at %3 N m (75 kg)  ·  accepted %4 to %5")
                               .arg(postureText(test), normText(test), figure(test.threshold_Nm, 0),
@@ -175,19 +176,20 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
   line.measured->setObjectName("measured_" + name);
   line.measured->setAccessibleName(QString::fromStdString(test.title) + ", " + side_title + tr(", degrees"));
   line.measured->setPlaceholderText(tr("not measured"));
-  line.measured->setFixedWidth(104);
+  line.measured->setFixedWidth(96);
   line.measured->setAlignment(Qt::AlignRight);
   grid.addWidget(line.measured, row, 1);
   line.note = new QLineEdit;
   line.note->setObjectName("note_" + name);
   line.note->setAccessibleName(tr("Remark or reason, ") + side_title);
   line.note->setPlaceholderText(tr("reason, end-feel"));
-  line.note->setMinimumWidth(70);
+  line.note->setMinimumWidth(60);
+  line.note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   grid.addWidget(line.note, row, 2);
   const auto result = [&](QLabel*& label, const QString& key, int column) {
     label = new QLabel;
     label->setObjectName(key + name);
-    label->setMinimumWidth(48);
+    label->setMinimumWidth(44);
     grid.addWidget(label, row, column);
   };
   result(line.before, "before_", 3);
@@ -195,6 +197,7 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
   result(line.residual, "residual_", 5);
   result(line.limiting, "limiting_", 6);
   line.limiting->setProperty("role", "small");
+  line.limiting->setMinimumWidth(60);
   line.limiting->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
 
   const std::string id = test.id;

@@ -40,6 +40,7 @@ HeaderBar::HeaderBar(Workspace& workspace, const Actions& actions, QWidget* pare
   patient_->setObjectName("patient_name");
   details_ = makeLabel({}, "small");
   details_->setObjectName("patient_details");
+  details_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* text = new QVBoxLayout;
   text->setSpacing(0);
   text->addStretch();
@@ -62,11 +63,12 @@ HeaderBar::HeaderBar(Workspace& workspace, const Actions& actions, QWidget* pare
     button->setObjectName(object_name);
     button->setDefaultAction(action);
     button->setIconSize({20, 20});
-    button->setMinimumSize(36, 34);
+    button->setText(action->text());
+    button->setMinimumSize(action == actions.undo || action == actions.redo ? 36 : 84, 34);
     button->setAccessibleName(action->text());
     const bool words = action != actions.undo && action != actions.redo;
     button->setToolButtonStyle(words ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
-    button->setProperty("text", words);
+    button->setProperty("words", words);
     row->addWidget(button);
     if (action == actions.redo) row->addSpacing(10);
   }

@@ -233,15 +233,16 @@ void LandmarksPage::refresh() {
 }
 
 void LandmarksPage::refreshNames() {
+  if (protocol_.empty()) protocol_ = loadLandmarkProtocol(workspace().resourceDir());
   std::vector<std::string> protocol;
-  for (const auto& landmark : workspace().reference()->skeleton.landmarks) protocol.push_back(landmark.name);
+  for (const auto& landmark : protocol_) protocol.push_back(landmark.name);
   auto names = landmarkNames(shownCase(), protocol);
   if (names == names_) return;
   names_ = std::move(names);
   const QSignalBlocker block{table_};
   table_->setRowCount(int(names_.size()));
   for (int i = 0; i < int(names_.size()); ++i)
-    setCell(*table_, i, kName, readableName(names_[std::size_t(i)]))
+    setCell(*table_, i, kName, titleOfLandmark(names_[std::size_t(i)]))
         ->setToolTip(QString::fromStdString(names_[std::size_t(i)]));
   if (workspace().view().landmark().empty() && !names_.empty()) workspace().view().setLandmark(names_.front());
   filterRows();
@@ -308,15 +309,24 @@ void LandmarksPage::refreshMarks() {
     RadiographView& canvas = panes_[std::size_t(view)]->view();
     canvas.setLines(std::move(lines));
     canvas.setMarks(std::move(marks), selected);
+    canvas.setPlacing(!selected.empty() && !findSighting(c, selected, view));
     if (const Sighting* own = findSighting(c, selected, view)) canvas.reveal({own->uv_px.x(), own->uv_px.y()});
   }
+}
+
+QString LandmarksPage::titleOfLandmark(const std::string& name) const {
+  for (const auto& landmark : protocol_)
+    if (landmark.name == name) return QString::fromStdString(landmark.title);
+  return readableName(name);
 }
 
 void LandmarksPage::refreshCard() {
   const Case& c = shownCase();
   const std::string& name = workspace().view().landmark();
-  card_title_->setText(name.empty() ? tr("No landmark chosen") : readableName(name));
+  card_title_->setText(name.empty() ? tr("No landmark chosen") : titleOfLandmark(name));
   QStringList lines;
+  for (const auto& landmark : protocol_)
+    if (landmark.name == name && !landmark.hint.empty()) lines << QString::fromStdString(landmark.hint);
   bool any = false;
   for (int view = 0; view < 2; ++view) {
     const Sighting* s = findSighting(c, name, view);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/widgets/stage_page.h"
+#include "core/skeleton/landmark_protocol.h"
 
 class QLabel;
 class QLineEdit;
@@ -52,6 +53,9 @@ class LandmarksPage : public StagePage {
   void removeSelected(bool both_views);
   void place(int view, const std::string& name, const QPointF& uv_px);
 
+  QString titleOfLandmark(const std::string& name) const;
+
+  std::vector<ProtocolLandmark> protocol_;
   std::vector<std::string> names_;
   std::map<std::string, Finding> findings_;
   std::array<RadiographPane*, 2> panes_;

@@ -26,7 +26,7 @@
 
 namespace sinew {
 
-MainWindow::MainWindow(Workspace& workspace, ReportPage::Renderer render_report) : workspace_{workspace} {
+MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_report) : workspace_{workspace} {
   setObjectName("main_window");
   setAttribute(Qt::WA_StyledBackground);
   setWindowTitle(
@@ -46,7 +46,7 @@ MainWindow::MainWindow(Workspace& workspace, ReportPage::Renderer render_report)
                   {Stage::Skeleton, new SkeletonPage{workspace_}},
                   {Stage::Musculature, new MusculaturePage{workspace_}},
                   {Stage::Exam, new ExamPage{workspace_}},
-                  {Stage::Report, new ReportPage{workspace_, std::move(render_report)}}};
+                  {Stage::Report, new ReportStagePage{workspace_, std::move(render_report)}}};
   for (const auto& [stage, page] : stage_pages_) pages_->addWidget(page);
 
   banner_ = new Banner;

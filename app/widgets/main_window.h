@@ -17,7 +17,7 @@ class Workspace;
 class MainWindow : public QWidget {
   Q_OBJECT
  public:
-  MainWindow(Workspace& workspace, ReportPage::Renderer render_report);
+  MainWindow(Workspace& workspace, ReportStagePage::Renderer render_report);
 
   void newCase();
   void openCase();

@@ -33,7 +33,6 @@ ModelView::ModelView(const QString& object_name, bool with_muscles, QWidget* par
   auto* tools = new QHBoxLayout{strip};
   tools->setContentsMargins(12, 4, 6, 4);
   tools->setSpacing(4);
-  tools->addWidget(makeLabel(tr("Model"), "heading"));
   tools->addStretch();
   buildTools(*tools, object_name);
 
@@ -77,7 +76,7 @@ void ModelView::buildTools(QHBoxLayout& tools, const QString& object_name) {
     auto* button = new QToolButton;
     button->setObjectName(object_name + "_" + name);
     button->setText(text);
-    button->setProperty("text", true);
+    button->setProperty("words", true);
     button->setToolTip(tip);
     button->setAccessibleName(tip);
     button->setCheckable(true);
@@ -92,7 +91,7 @@ void ModelView::buildTools(QHBoxLayout& tools, const QString& object_name) {
   layer("bones", tr("Bones"), tr("Show bones"), bones_, SceneLayer::Bones);
   if (with_muscles_) layer("muscles", tr("Muscles"), tr("Show muscles"), muscles_, SceneLayer::Muscles);
   layer("axes", tr("Axes"), tr("Show mechanical axes"), axes_, SceneLayer::MechanicalAxes);
-  layer("landmarks", tr("Landmarks"), tr("Show landmarks"), landmarks_, SceneLayer::Landmarks);
+  layer("landmarks", tr("Points"), tr("Show landmarks"), landmarks_, SceneLayer::Landmarks);
   tools.addSpacing(8);
   const char* names[] = {"front", "side", "back", "oblique"};
   const char* icons[] = {"view-front", "view-side", "view-back", "fit"};

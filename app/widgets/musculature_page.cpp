@@ -37,13 +37,13 @@ std::vector<std::pair<QString, QString>> factsOf(const Model& model, const Muscu
   const double length_m = pathLength(unit, clinical.X_WB);
   const FiberState state = equilibrium(unit, length_m, 0);
   std::vector<std::pair<QString, QString>> facts{
-      {QObject::tr("Maximal isometric force"), figure(unit.max_isometric_force_N, 0) + " N"},
+      {QObject::tr("Isometric force"), figure(unit.max_isometric_force_N, 0) + " N"},
       {QObject::tr("Optimal fibre length"), figure(1000 * unit.optimal_fiber_length_m, 1) + " mm"},
       {QObject::tr("Tendon slack length"), figure(1000 * unit.tendon_slack_length_m, 1) + " mm"},
-      {QObject::tr("Pennation at optimum"), figure(unit.pennation_angle_at_optimal_rad / kDegree, 1) + "°"},
-      {QObject::tr("Length factor of the exam"), figure(lengthFactor(model, unit.name), 3)},
+      {QObject::tr("Pennation"), figure(unit.pennation_angle_at_optimal_rad / kDegree, 1) + "°"},
+      {QObject::tr("Exam length factor"), figure(lengthFactor(model, unit.name), 3)},
       {QObject::tr("Path length, on the images"), figure(1000 * length_m, 1) + " mm"},
-      {QObject::tr("Fibre length / optimum"), figure(state.normalized_fiber_length, 2)},
+      {QObject::tr("Fibre / optimum"), figure(state.normalized_fiber_length, 2)},
       {QObject::tr("Passive force"), figure(state.force_N, 0) + " N"}};
   const Eigen::VectorXd arms_m = momentArms(unit, clinical);
   for (Eigen::Index i = 0; i < arms_m.size(); ++i) {
@@ -68,10 +68,10 @@ MusculaturePage::MusculaturePage(Workspace& workspace)
   search_->setClearButtonEnabled(true);
   count_ = makeLabel({}, "small");
   count_->setObjectName("muscle_count");
-  table_ = makeTable("muscle_table", {tr("Muscle"), tr("Force N"), tr("Fibre mm"), tr("Tendon mm"), tr("Factor")});
+  table_ = makeTable("muscle_table", {tr("Muscle"), tr("Force N"), tr("Factor")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-  for (int column = 1; column < 5; ++column)
+  for (int column = 1; column < 3; ++column)
     table_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   table_->setAccessibleName(tr("Muscles"));
   list->addWidget(search_);
@@ -143,10 +143,8 @@ void MusculaturePage::fillTable(const Model& model) {
     name->setData(Qt::UserRole + 1, readableName(unit.group));
     name->setToolTip(readableName(unit.group));
     setCell(*table_, i, 1, figure(unit.max_isometric_force_N, 0), kNumber);
-    setCell(*table_, i, 2, figure(1000 * unit.optimal_fiber_length_m, 0), kNumber);
-    setCell(*table_, i, 3, figure(1000 * unit.tendon_slack_length_m, 0), kNumber);
     const double factor = lengthFactor(model, unit.name);
-    auto* cell = setCell(*table_, i, 4, factor == 1 ? "1" : figure(factor, 2), kNumber);
+    auto* cell = setCell(*table_, i, 2, factor == 1 ? "1" : figure(factor, 2), kNumber);
     if (factor != 1) cell->setForeground(colour::kPrimaryDark);
   }
 }

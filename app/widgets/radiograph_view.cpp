@@ -311,7 +311,7 @@ void RadiographView::mousePressEvent(QMouseEvent* event) {
   } else if (event->button() == Qt::MiddleButton) {
     drag_ = Drag::Pan;
   } else if (event->button() == Qt::LeftButton) {
-    if (const MarkOverlay* mark = markAt(press_)) {
+    if (const MarkOverlay* mark = placing_ ? nullptr : markAt(press_)) {
       dragged_mark_ = mark->name;
       grab_offset_px_ = mark->uv_px - toImage(press_);
       drag_ = Drag::Mark;

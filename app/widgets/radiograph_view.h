@@ -51,6 +51,8 @@ class RadiographView : public QWidget {
   void setOrientation(const QString& left_edge, const QString& right_edge);
   void setTool(Tool tool);
   void setLoupe(bool on);
+  /// With the Place tool: a click places even on top of a mark (left and right overlap in a lateral view).
+  void setPlacing(bool on) { placing_ = on; }
 
   void fit();
   void oneToOne();
@@ -109,7 +111,7 @@ class RadiographView : public QWidget {
   std::vector<LineOverlay> lines_;
   std::string selected_;
   Tool tool_ = Tool::Look;
-  bool loupe_ = false;
+  bool loupe_ = false, placing_ = false;
 
   double zoom_ = 1;     ///< logical pixels per image pixel
   QPointF center_px_;   ///< image point in the middle of the widget

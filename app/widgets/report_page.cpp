@@ -19,7 +19,7 @@ constexpr int kPageWidth = 820;  // logical pixels: an A4 page that can be read
 
 }  // namespace
 
-ReportPage::ReportPage(Workspace& workspace, Renderer renderer)
+ReportStagePage::ReportStagePage(Workspace& workspace, Renderer renderer)
     : StagePage{workspace, Stage::Report, tr("One page and annexes, as they will be printed.")},
       renderer_{std::move(renderer)} {
   export_ = makeButton("export_report", tr("Export PDF …"), "export", tr("Write the report to a PDF file (Ctrl+E)"));
@@ -32,24 +32,32 @@ ReportPage::ReportPage(Workspace& workspace, Renderer renderer)
   scroll_ = new QScrollArea;
   scroll_->setObjectName("report_scroll");
   scroll_->setWidgetResizable(true);
-  pages_ = new QWidget;
-  pages_->setLayout(new QVBoxLayout);
-  scroll_->setWidget(pages_);
   placeholder_ = makeLabel({}, "muted");
   placeholder_->setObjectName("report_placeholder");
   placeholder_->setAlignment(Qt::AlignCenter);
   placeholder_->setWordWrap(true);
   body().addWidget(scroll_, 1);
   body().addWidget(placeholder_, 1);
+  connect(&preview_job_, &JobRunner::released, this, [this] {
+    if (isVisible() && this->workspace().document().isOpen()) refresh();
+  });
+  connect(&preview_job_, &JobRunner::ended, this, [this](JobRunner::Ending, const QString& message) {
+    if (message.isEmpty()) return;
+    drawn_ = shownCase().report ? shownCase().report->sha256 : std::string{};  // not again until the report changes
+    emit this->workspace().problem(message);
+  });
 }
 
-void ReportPage::refresh() {
+void ReportStagePage::refresh() {
   const bool fresh = workspace().document().stateOf(Stage::Report) == StageState::Done && shownCase().report;
   export_->setEnabled(fresh);
-  scroll_->setVisible(fresh);
-  placeholder_->setVisible(!fresh);
+  const bool shown = fresh && drawn_ == shownCase().report->sha256 && !preview_job_.isBusy();
+  scroll_->setVisible(shown);
+  placeholder_->setVisible(!shown);
+  if (shown) return;
   if (fresh) {
-    showPages();
+    placeholder_->setText(tr("Drawing the pages …"));
+    drawPages();
     return;
   }
   QStringList reasons;
@@ -59,16 +67,31 @@ void ReportPage::refresh() {
                             : tr("A report is only made from fresh results:\n\n%1").arg(reasons.join('\n')));
 }
 
-void ReportPage::showPages() {
+void ReportStagePage::drawPages() {
+  const int width_px = int(kPageWidth * devicePixelRatioF());
+  const auto folder = workspace().document().folder();
+  Workspace& shared = workspace();
+  const bool started =
+      preview_job_.start(tr("Draw the report"),
+                         [=, this, c = shownCase(), &shared, render = renderer_](const Job&) -> JobRunner::Finish {
+                           auto images = render(c, folder, *shared.reference(), shared.resourceDir(), width_px);
+                           return [this, c, images = std::move(images)] {
+                             drawn_ = c.report->sha256;
+                             showPages(images);
+                           };
+                         });
+  if (started) drawn_.clear();
+}
+
+void ReportStagePage::showPages(std::vector<QImage> images) {
   auto* column = new QVBoxLayout;
   column->setContentsMargins(0, 4, 0, 4);
   column->setSpacing(16);
   auto* pages = new QWidget;
   pages->setLayout(column);
-  const double ratio = devicePixelRatioF();
   int number = 0;
-  for (QImage& image : renderer_(workspace(), int(kPageWidth * ratio))) {
-    image.setDevicePixelRatio(ratio);
+  for (QImage& image : images) {
+    image.setDevicePixelRatio(devicePixelRatioF());
     auto* page = new QLabel;
     page->setObjectName(QString{"report_page_%1"}.arg(++number));
     page->setAccessibleName(tr("Page %1 of the report").arg(number));
@@ -78,10 +101,9 @@ void ReportPage::showPages() {
   }
   column->addStretch();
   scroll_->setWidget(pages);  // deletes the old one
-  pages_ = pages;
 }
 
-void ReportPage::exportPdf(const std::filesystem::path& file) {
+void ReportStagePage::exportPdf(const std::filesystem::path& file) {
   try {
     if (!shownCase().report) throw InputError{"The report has not been made yet."};
     writeFileAtomically(file, readFile(checkedFile(*shownCase().report, workspace().document().folder())));

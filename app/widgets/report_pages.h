@@ -1,15 +1,20 @@
 #pragma once
 #include <QImage>
+#include <filesystem>
 #include <vector>
 
-#include "app/model/workspace.h"
+#include "clinical/case.h"
+#include "core/model/model.h"
 
 namespace sinew {
 
-/// Draws a case's report to a PDF file: what the report stage calls, also on a thread of its own.
-Workspace::ReportWriter reportWriter(const std::filesystem::path& resource_dir);
+/// Pages of a case's report as pictures, `width_px` wide. Safe on a thread of its own.
+/// @throws InputError if a stage that the report shows is not fresh.
+std::vector<QImage> renderReportPages(const Case& c, const std::filesystem::path& case_dir, const Model& reference,
+                                      const std::filesystem::path& resource_dir, int width_px);
 
-/// The same pages as pictures, `width_px` wide. @throws InputError if a stage that the report shows is not fresh.
-std::vector<QImage> renderReportPages(Workspace& workspace, int width_px);
+/// Draws the report to a PDF file.
+void printReport(const Case& c, const std::filesystem::path& case_dir, const std::filesystem::path& pdf,
+                 const Model& reference, const std::filesystem::path& resource_dir);
 
 }  // namespace sinew

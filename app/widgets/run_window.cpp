@@ -22,7 +22,7 @@ int runWindow(int argc, char** argv, const std::filesystem::path& resource_dir) 
   QApplication::setQuitOnLastWindowClosed(true);
   try {
     installTheme(application, resource_dir);
-    Workspace workspace{resource_dir, reportWriter(resource_dir)};
+    Workspace workspace{resource_dir, printReport};
     MainWindow window{workspace, renderReportPages};
     const QSize screen = application.primaryScreen()->availableSize();
     window.resize(std::min(1680, screen.width()), std::min(1020, screen.height()));

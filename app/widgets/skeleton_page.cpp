@@ -56,7 +56,6 @@ void SkeletonPage::refreshOverlays(const Model* model) {
   const Case& c = shownCase();
   for (int view = 0; view < 2; ++view) {
     std::vector<LineOverlay> lines;
-    std::vector<MarkOverlay> marks;
     if (model && c.rig) {
       const View& geometry = c.rig->views[std::size_t(view)];
       for (const auto& contour :
@@ -67,10 +66,7 @@ void SkeletonPage::refreshOverlays(const Model* model) {
           lines.push_back(std::move(overlay));
         }
     }
-    for (const auto& s : c.sightings)
-      if (s.view == view) marks.push_back({s.name, {s.uv_px.x(), s.uv_px.y()}, sideColour(s.name), false, {}});
     panes_[std::size_t(view)]->view().setLines(std::move(lines));
-    panes_[std::size_t(view)]->view().setMarks(std::move(marks), {});
   }
 }
 

@@ -42,6 +42,7 @@ StagePage::StagePage(Workspace& workspace, Stage stage, const QString& purpose, 
   badge_ = new QLabel;
   badge_->setObjectName(name + "_badge");
   badge_->setProperty("badge", "quiet");
+  badge_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   explanation_ = makeLabel(purpose, "muted");
   explanation_->setObjectName(name + "_explanation");
   explanation_->setProperty("purpose", purpose);
