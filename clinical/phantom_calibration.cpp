@@ -21,4 +21,15 @@ BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>&
   return calibrateFromBeads(object, detected, rigFromDicom(radiographs[0], radiographs[1]), {}, job);
 }
 
+BeadCalibration calibrateFromPickedBeads(const std::array<std::filesystem::path, 2>& images,
+                                         const std::filesystem::path& beads, const std::filesystem::path& sightings,
+                                         const Job& job) {
+  std::array<Eigen::Vector2i, 2> sizes_px;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Radiograph radiograph = readRadiograph(images[i]);
+    sizes_px[i] = {radiograph.width_px, radiograph.height_px};
+  }
+  return calibrateFromSightings(loadCalibrationObject(beads), loadSightings(sightings), sizes_px, {}, job);
+}
+
 }  // namespace sinew

@@ -12,4 +12,10 @@ namespace sinew {
 BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>& images,
                                      const std::filesystem::path& beads, const Job& job = {});
 
+/// The same from beads that a person picked and named (CSV of sightings, name = bead): the images need no geometry,
+/// and give their sizes alone.
+BeadCalibration calibrateFromPickedBeads(const std::array<std::filesystem::path, 2>& images,
+                                         const std::filesystem::path& beads, const std::filesystem::path& sightings,
+                                         const Job& job = {});
+
 }  // namespace sinew

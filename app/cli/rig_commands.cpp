@@ -119,7 +119,7 @@ void addImport(CLI::App& rig, Commands& commands) {
 void addCalibrate(CLI::App& rig, Commands& commands) {
   struct Options {
     std::vector<std::filesystem::path> images;
-    std::filesystem::path beads;
+    std::filesystem::path beads, sightings;
     std::string output;
   };
   auto o = std::make_shared<Options>();
@@ -127,12 +127,16 @@ void addCalibrate(CLI::App& rig, Commands& commands) {
                              "sinew rig calibrate --image ap.dcm --image lateral.dcm --beads beads.csv -o rig.json");
   command.add_option("--image", o->images, "image of the phantom, twice: frontal, then lateral")->required();
   command.add_option("--beads", o->beads, "its beads (CSV name,x_mm,y_mm,z_mm[,diameter_mm])")->required();
+  command.add_option("--sightings", o->sightings, "picked beads (CSV name,view,u_px,v_px) instead of detecting them");
   command.add_option("-o,--output", o->output, "rig file to write");
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       if (o->images.size() != 2)
         throw InputError{{"sinew rig calibrate", "--image", "two images", std::to_string(o->images.size())}};
-      const auto calibration = calibrateFromPhantom({o->images[0], o->images[1]}, o->beads, session.job());
+      const std::array images{o->images[0], o->images[1]};
+      const auto calibration = o->sightings.empty()
+                                   ? calibrateFromPhantom(images, o->beads, session.job())
+                                   : calibrateFromPickedBeads(images, o->beads, o->sightings, session.job());
       if (calibration.outcome == Outcome::Converged) {
         finish(session, calibration.rig, o->output);
       } else {

@@ -1,9 +1,11 @@
 #include <signal.h>
 
+#include <Eigen/Core>
 #include <chrono>
 #include <thread>
 
 #include "core/file.h"
+#include "core/text.h"
 #include "tests/app/cli_support.h"
 
 namespace sinew {
@@ -110,6 +112,45 @@ TEST(CliCase, DamageIsReported) {
   EXPECT_EQ(broken.status, 2);
   EXPECT_THAT(broken.err, AllOf(HasSubstr("case.json: line "), HasSubstr("cut off")));
   EXPECT_EQ(readFile(copy + "/case.json"), text.substr(0, text.size() / 2));
+}
+
+/// Exact picks of the demo phantom's beads, through the calibrated geometry of the case.
+std::string exactBeadPicks(const Json& rig) {
+  std::istringstream beads{readFile(demo().path() + "/calibration/beads.csv")};
+  std::string picks = "name,view,u_px,v_px\n", line;
+  std::getline(beads, line);
+  while (std::getline(beads, line)) {
+    const auto cells = splitCsvLine(line);
+    for (int i = 0; i < 2; ++i) {
+      const Json& view = rig["views"][std::size_t(i)];
+      Eigen::Vector3d p_C;
+      for (std::size_t row = 0; row < 3; ++row) {
+        p_C[int(row)] = view["p_CW_m"][row];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          p_C[int(row)] += view["R_CW"][row][axis].get<double>() * parseNumber(cells[axis + 1], "beads", "mm") / 1000;
+      }
+      picks += cells[0] + "," + std::to_string(i + 1) + "," +
+               std::to_string(view["fx_px"].get<double>() * p_C.x() / p_C.z() + view["cx_px"].get<double>()) + "," +
+               std::to_string(view["fy_px"].get<double>() * p_C.y() / p_C.z() + view["cy_px"].get<double>()) + "\n";
+    }
+  }
+  return picks;
+}
+
+TEST(CliCase, PickedBeadsGiveTheGeometryBack) {
+  const test::TemporaryFolder folder;
+  const Json rig = parseJson(readFile(demo().path() + "/case.json"), "case")["results"]["rig"];
+  writeFileAtomically(folder / "picks.csv", exactBeadPicks(rig));
+  const std::string calibration = demo().path() + "/calibration/";
+  const ProgramResult result =
+      sinewProgram({"rig", "calibrate", "--image", calibration + "phantom_view1.dcm", "--image",
+                    calibration + "phantom_view2.dcm", "--beads", calibration + "beads.csv", "--sightings",
+                    folder / "picks.csv", "-o", folder / "rig.json", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_LT(documentOf(result)["rms_px"].get<double>(), 0.01);  // exact picks; printed to 1e-6 px
+  const Json back = parseJson(readFile(folder / "rig.json"), "rig");
+  for (std::size_t i = 0; i < 2; ++i)  // 0.1 % of the focal length: what beads known to 0.05 mm leave open
+    EXPECT_NEAR(back["views"][i]["fx_px"].get<double>() / rig["views"][i]["fx_px"].get<double>(), 1, 1e-3);
 }
 
 TEST(CliCase, ADemoNeverOverwritesOtherFiles) {
