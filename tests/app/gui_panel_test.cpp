@@ -38,8 +38,9 @@ class PanelTest : public ::testing::Test {
     static int argc = 1;
     static char name[] = "panel-test";
     static char* argv[] = {name, nullptr};
-    static QApplication application{argc, argv};
-    installTheme(application, test::resourceDir());
+    auto* const application =
+        new QApplication{argc, argv};  // lives as long as the process: Qt's own statics go before
+    installTheme(*application, test::resourceDir());
   }
   void SetUp() override {
     view_.resize(400, 300);
