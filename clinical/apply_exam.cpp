@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "clinical/physical_exam.h"
 #include "core/ceres_job_internal.h"
@@ -99,11 +101,36 @@ struct SideFit {
   std::map<int, double> factors;
 };
 
-SideFit solveSide(const std::vector<MeasuredTest>& tests, const std::vector<FreeGroup>& groups, const Job& job,
-                  double from, double to) {
+double costOf(const ExamResiduals& residuals, std::size_t count, const std::vector<double>& factors) {
+  std::vector<double> values(count);
+  const double* blocks[] = {factors.data()};
+  residuals(blocks, values.data());
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+}
+
+/// Where the solver may start. A muscle that is too long to hold anywhere leaves the simulated angle at the end of
+/// the movement, without a slope to follow; so one group after the other is tried over its whole range, twice because
+/// tests share groups.
+std::vector<double> bestStart(const ExamResiduals& residuals, std::size_t residual_count, std::size_t groups) {
+  constexpr double kStep = 0.02;
+  std::vector<double> best(groups, 1.0);
+  double least = costOf(residuals, residual_count, best);
+  for (int round = 0; round < 2; ++round)
+    for (std::size_t g = 0; g < groups; ++g) {
+      auto tried = best;
+      for (double factor = kLeastFactor; factor < kMostFactor; factor += kStep) {
+        tried[g] = factor;
+        if (const double cost = costOf(residuals, residual_count, tried); cost < least) least = cost, best = tried;
+      }
+    }
+  return best;
+}
+
+SideFit solveSide(const std::vector<MeasuredTest>& tests, const std::vector<FreeGroup>& groups, char side,
+                  const Job& job, double from, double to) {
   SideFit fit;
   if (groups.empty()) return fit;
-  std::vector<double> factors(groups.size(), 1.0);
+  auto factors = bestStart({tests, groups}, tests.size() + groups.size(), groups.size());
   // The angles come from a bisection (1e-7 rad): differences over 1e-4 of a length are exact to 0.1 %.
   ceres::NumericDiffOptions differences;
   differences.relative_step_size = 1e-4;
@@ -118,7 +145,8 @@ SideFit solveSide(const std::vector<MeasuredTest>& tests, const std::vector<Free
     problem.SetParameterUpperBound(factors.data(), g, kMostFactor);
   }
   constexpr int kIterations = 60;
-  CeresJob monitor{job, "solving muscle lengths", kIterations, from, to};
+  CeresJob monitor{job, side == 'r' ? "solving muscle lengths, right" : "solving muscle lengths, left", kIterations,
+                   from, to};
   ceres::Solver::Options options = solverOptions(monitor, kIterations);
   options.function_tolerance = 1e-9;
   ceres::Solver::Summary summary;
@@ -146,7 +174,8 @@ std::vector<ExamSweep> sweepsOf(const Model& model, const ExamProtocol& protocol
   std::vector<ExamSweep> sweeps;
   for (const auto& test : protocol.tests) {
     if (job.cancelled()) break;
-    job.report(from + 0.2 * double(sweeps.size()) / double(protocol.tests.size()), "simulating " + test.title);
+    job.report(from + 0.2 * double(sweeps.size()) / double(protocol.tests.size()),
+               "simulating " + test.title + (side == 'r' ? ", right" : ", left"));
     sweeps.emplace_back(model, test, side);
   }
   return sweeps;
@@ -171,6 +200,15 @@ ExamComparison compare(const Model& model, const ExamProtocol& protocol, const E
   return line;
 }
 
+/// A measurement that no choice of lengths could meet: said, not left to be found in a table.
+void warnIfUnmet(const ExamTest& test, const ExamComparison& line, Warnings& warnings) {
+  if (!line.measured_deg || !(std::abs(line.residual_deg) > test.measurement_sd_deg)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, " %c: measured %.0f deg, the fitted model gives %.0f deg%s", line.side,
+                *line.measured_deg, line.simulated_after_deg, line.stopped_by_joint ? " (the joint's own stop)" : "");
+  warnings.push_back({"exam_not_met", test.title + text + "; muscle lengths alone cannot explain it"});
+}
+
 /// Solves one side and appends its lines to the result.
 void applySide(const Model& model, const PhysicalExam& exam, const ExamProtocol& protocol, double mass_kg, char side,
                const Job& job, ExamFit& result) {
@@ -187,7 +225,8 @@ void applySide(const Model& model, const PhysicalExam& exam, const ExamProtocol&
     if (entry && entry->measured_deg)
       measured.push_back({&test, *entry->measured_deg, thresholdOf(test, entry, mass_kg), sweeps[i]});
   }
-  const SideFit fit = solveSide(measured, freeGroups(model, protocol, measured, side), job, from + 0.2, from + 0.5);
+  const SideFit fit =
+      solveSide(measured, freeGroups(model, protocol, measured, side), side, job, from + 0.2, from + 0.5);
   if (fit.outcome != Outcome::Converged) result.outcome = fit.outcome;
   for (const auto& [unit, factor] : fit.factors) {
     const std::string& name = model.musculature.units[unit].name;
@@ -197,9 +236,12 @@ void applySide(const Model& model, const PhysicalExam& exam, const ExamProtocol&
                                                                ": length factor at its bound; muscle lengths alone "
                                                                "cannot meet this examination"});
   }
-  for (std::size_t i = 0; i < sweeps.size(); ++i)
-    result.tests.push_back(compare(model, protocol, protocol.tests[i], sweeps[i], side,
-                                   entryOf(exam, protocol.tests[i].id, side), mass_kg, fit));
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const ExamTest& test = protocol.tests[i];
+    result.tests.push_back(
+        compare(model, protocol, test, sweeps[i], side, entryOf(exam, test.id, side), mass_kg, fit));
+    if (fit.outcome == Outcome::Converged) warnIfUnmet(test, result.tests.back(), result.warnings);
+  }
 }
 
 }  // namespace
@@ -216,7 +258,7 @@ ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ExamProtoc
     if (result.outcome == Outcome::Cancelled) return {.outcome = Outcome::Cancelled};
   }
   if (result.outcome != Outcome::Converged) result.length_factors.clear();
-  job.report(1, "examination applied");
+  job.report(1, "examination met by muscle lengths");
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
