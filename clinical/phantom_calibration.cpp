@@ -12,7 +12,7 @@ BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>&
   std::array<Radiograph, 2> radiographs;
   std::array<std::vector<DetectedBead>, 2> detected;
   for (std::size_t i = 0; i < 2; ++i) {
-    job.report(0.1 + 0.3 * static_cast<double>(i), "beads of the phantom, view " + std::to_string(i + 1));
+    job.report(0.1 + 0.3 * static_cast<double>(i), "finding the beads of the phantom, view " + std::to_string(i + 1));
     radiographs[i] = readRadiograph(images[i]);
     detected[i] = detectBeads(radiographs[i]);
     if (job.cancelled()) return {.outcome = Outcome::Cancelled};

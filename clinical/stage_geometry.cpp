@@ -85,9 +85,9 @@ Warnings coverage(const Case& c, const PipelineContext& context) {
     if (std::ranges::none_of(c.landmarks->points, [&](const auto& p) { return p.name == wanted.name; }))
       missing.push_back(wanted.name);
   if (!missing.empty())
-    warnings.push_back(
-        {"landmarks_missing", std::to_string(missing.size()) +
-                                  " landmarks of the protocol are not seen in both views: " + listed(missing)});
+    warnings.push_back({"landmarks_missing", std::to_string(missing.size()) +
+                                                 (missing.size() == 1 ? " landmark" : " landmarks") +
+                                                 " of the protocol not seen in both views: " + listed(missing)});
   return warnings;
 }
 

@@ -83,7 +83,7 @@ Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference,
     const CalibrationObject phantom = syntheticPhantom();
     c.phantom.emplace();
     for (std::size_t i = 0; i < 2; ++i) {
-      job.report(0.8 + 0.1 * double(i), "phantom");
+      job.report(0.8 + 0.1 * double(i), "rendering the bead phantom, view " + std::to_string(i + 1));
       const Radiograph image =
           renderPhantom(phantom, patient.true_rig.views[i], options, films[i].view_position, {{}, job.stop});
       if (job.cancelled()) return {};
@@ -94,7 +94,7 @@ Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference,
     c.phantom->beads = {beads, sha256OfFile(folder / beads)};
   }
   saveCase(c, folder);
-  job.report(1, "case");
+  job.report(1, "case written");
   return c;
 }
 

@@ -120,16 +120,17 @@ std::vector<XrayVolume> phantomFrame(const CalibrationObject& phantom) {
 Radiograph renderRadiograph(const Model& model, const Posture& posture, const View& view,
                             const SyntheticOptions& options, const std::string& view_position, const Job& job) {
   const auto [film, index] = filmOf(options, view_position);
-  job.report(0, "body");
+  const std::string step = "rendering view " + std::to_string(index + 1) + ": ";
+  job.report(0, step + "bones and soft tissue");
   const XrayScene scene = patientScene(model, posture, job);
   if (job.cancelled()) return develop({}, view, film, {}, options);
-  job.report(0.3, "rays");
+  job.report(0.3, step + "rays through the body");
   const double pixel_at_patient_mm = options.rig == SyntheticRig::SlotScan
                                          ? film.pixel_mm
                                          : film.pixel_mm * film.source_to_isocenter_mm / film.source_to_detector_mm;
   PixelField attenuation = renderScene(scene, view, pixel_at_patient_mm, imageSeed(options, index, 0), job);
   if (job.cancelled()) return develop({}, view, film, {}, options);
-  job.report(0.8, "detector");
+  job.report(0.8, step + "detector");
   Exposure exposure = exposureOf(film, options);
   exposure.seed = imageSeed(options, index, 1);
   exposure.first_open_row = firstOpenRow(model, posture, view, options);

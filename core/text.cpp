@@ -35,6 +35,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::vector<std::string> splitCsvLine(std::string_view line) {
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; line.starts_with(kByteOrderMark))
+    line.remove_prefix(kByteOrderMark.size());
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {

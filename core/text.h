@@ -6,7 +6,8 @@
 
 namespace sinew {
 
-/// Splits one line of comma-separated values; double quotes protect commas, "" is a quote. Blanks around a cell go.
+/// Splits one line of comma-separated values; double quotes protect commas, "" is a quote. Blanks around a cell
+/// go, and so does the byte order mark that spreadsheets put before the first line.
 std::vector<std::string> splitCsvLine(std::string_view line);
 
 /// The `count` known names most like `name` (edit distance), nearest first: to answer a wrong name.

@@ -103,6 +103,18 @@ void warnOfFlippedRows(const BiplanarRig& rig, const std::vector<NamedPair>& pai
                                          "convention; expected v downwards from the top row."});
 }
 
+/// Picks that meet only after trading places belong to the other view.
+void warnOfSwappedViews(const BiplanarRig& rig, const std::vector<NamedPair>& pairs, Warnings& warnings) {
+  if (pairs.size() < 3) return;
+  const double as_given = medianMismatch_sigma(rig, pairs, false, false);
+  if (as_given <= kGrossMismatch_sigma) return;
+  auto swapped = pairs;
+  for (auto& group : swapped)
+    for (auto& s : group.pair) s.view = 1 - s.view;
+  if (medianMismatch_sigma(rig, swapped, false, false) < as_given / 5)
+    warnings.push_back({"swapped_views", "The sightings fit only if view 1 and view 2 are exchanged."});
+}
+
 std::string shortNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
@@ -174,6 +186,7 @@ Triangulation triangulateAll(const BiplanarRig& rig, std::span<const Sighting> s
   }
   if (!result.points.empty()) result.rms_px = std::sqrt(sum_px2 / double(result.points.size()));
   warnOfFlippedRows(rig, pairs, result.warnings);
+  warnOfSwappedViews(rig, pairs, result.warnings);
   return result;
 }
 

@@ -11,8 +11,8 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t kLimitingMuscles = 10;
-const std::vector<std::string> kQuantities = {"lengths",        "moment_arms",   "validity",      "limiting_muscle",
-                                              "passive_torque", "fiber_lengths", "passive_forces"};
+const std::vector<std::string> kQuantities = {"lengths",        "moment_arms", "validity",      "limiting_muscle",
+                                              "passive_torque", "peak_torque", "fiber_lengths", "passive_forces"};
 
 struct NamedPosture {
   std::string name;
@@ -25,12 +25,14 @@ std::vector<NamedPosture> loadPostures(const std::filesystem::path& file, const 
   std::vector<NamedPosture> postures;
   for (const auto& item : JsonReader{json, file.string()}.items()) {
     item.allowOnly({"name", "coordinates_deg"});
+    const std::string name_of_posture = item["name"].text();
     std::map<std::string, double> coordinates_deg;
     for (const auto& [name, value] : item["coordinates_deg"].members()) coordinates_deg[name] = value.number();
     try {
-      postures.push_back({item["name"].text(), postureFromDegrees(skeleton, coordinates_deg)});
+      postures.push_back({name_of_posture, postureFromDegrees(skeleton, coordinates_deg)});
     } catch (const InputError& error) {
-      throw InputError{{file.string(), item.path(), error.detail().expected, error.detail().found}};
+      throw InputError{
+          {file.string(), item.path() + ".coordinates_deg", error.detail().expected, error.detail().found}};
     }
   }
   return postures;
@@ -40,8 +42,8 @@ std::vector<std::string> chosenQuantities(const std::string& list) {
   std::vector<std::string> chosen = splitCsvLine(list);
   for (const auto& name : chosen)
     if (std::ranges::find(kQuantities, name) == kQuantities.end())
-      throw InputError{
-          {"sinew evaluate", "--what", "quantities of --help", "'" + name + "'" + didYouMean(name, kQuantities)}};
+      throw InputError{{"sinew evaluate", "--what", "quantities of 'sinew evaluate --help', separated by commas",
+                        "'" + name + "'" + didYouMean(name, kQuantities)}};
   return chosen;
 }
 
@@ -80,6 +82,16 @@ Json torqueJson(const Model& model, const Eigen::VectorXd& torque) {
   return json;
 }
 
+/// Both ways of every rotation.
+Json peakTorqueJson(const Model& model, const IsometricTorque& torque) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < model.skeleton.coordinates.size(); ++k)
+    if (const auto i = static_cast<Eigen::Index>(k); !model.skeleton.coordinates[k].translational)
+      json[model.skeleton.coordinates[k].name] = {{"increasing", torque.increasing_Nm[i]},
+                                                  {"decreasing", torque.decreasing_Nm[i]}};
+  return json;
+}
+
 Json postureJson(const Model& model, const NamedPosture& posture, const std::vector<std::string>& what) {
   const PostureEvaluation e = evaluatePosture(model.skeleton, model.musculature, posture.posture);
   Json json{{"name", posture.name}};
@@ -92,6 +104,8 @@ Json postureJson(const Model& model, const NamedPosture& posture, const std::vec
     }
     if (quantity == "limiting_muscle") json["limiting"] = limitingJson(model, e);
     if (quantity == "passive_torque") json["passive_torque_Nm"] = torqueJson(model, e.passive_torque);
+    if (quantity == "peak_torque")
+      json["peak_torque_Nm"] = peakTorqueJson(model, isometricTorque(model.musculature, e));
     if (quantity == "fiber_lengths")
       json["normalized_fiber_lengths"] = byUnit(model.musculature, e.normalized_fiber_length);
     if (quantity == "passive_forces") json["passive_forces_N"] = byUnit(model.musculature, e.passive_force_N);
@@ -148,7 +162,8 @@ void addEvaluateCommand(Commands& commands) {
   command.add_option("--postures", o->postures, "JSON file of postures")->required();
   command
       .add_option("--what", o->what,
-                  "of lengths, moment_arms, validity, limiting_muscle, passive_torque, fiber_lengths, passive_forces")
+                  "of lengths, moment_arms, validity, limiting_muscle, passive_torque, peak_torque (isometric, every "
+                  "muscle that turns that way fully active), fiber_lengths, passive_forces")
       ->capture_default_str();
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
@@ -159,7 +174,7 @@ void addEvaluateCommand(Commands& commands) {
       const Job job = session.job();
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (job.cancelled()) return ExitStatus::NotConverged;
-        job.report(static_cast<double>(i) / static_cast<double>(wanted.size()), "postures");
+        job.report(static_cast<double>(i) / static_cast<double>(wanted.size()), "evaluating postures");
         postures.push_back(postureJson(model, wanted[i], what));
       }
       session.result({{"format", "sinew.evaluation"}, {"version", 1}, {"postures", postures}}, asCsv(postures));

@@ -4,6 +4,7 @@
 #include "app/cli/commands.h"
 #include "clinical/case_io.h"
 #include "clinical/physical_exam.h"
+#include "core/file.h"
 #include "core/rom/exam_test.h"
 #include "imaging/radiograph.h"
 
@@ -75,6 +76,8 @@ Case makeCase(const NewOptions& o, Session& session) {
         readRadiograph(file, o.pixel_size_mm));  // unusable images are refused before anything is written
     session.warn(images.back().warnings);
   }
+  if (o.images.size() == 2 && sha256OfFile(o.images[0]) == sha256OfFile(o.images[1]))
+    throw InputError{{"sinew new", "--image", "two radiographs", "the same image twice"}};
   orderViews(files, images, session);
   fillPatient(c.patient, images.at(0));
   c.patient.height_m = o.height_m;
@@ -85,6 +88,7 @@ Case makeCase(const NewOptions& o, Session& session) {
     c.exam = loadExam(o.exam);
     session.warn(checkExam(c.exam, loadExamProtocol(session.resourceDir())));
   }
+  caseFromJson(caseToJson(c), "sinew new");  // figures out of range are refused before anything is written
   for (std::size_t i = 0; i < files.size(); ++i)
     c.images.push_back({importFile(files[i], o.folder, "images/view" + std::to_string(i + 1) + extensionOf(files[i])),
                         o.pixel_size_mm});

@@ -16,7 +16,7 @@ void Progress::report(double fraction, std::string_view work) {
   if (style_ == Style::Quiet) return;
   const std::scoped_lock lock{mutex_};
   if (style_ == Style::Lines) {
-    if (work == last_work_) return;
+    if (work == last_work_ || fraction >= 1) return;  // the end of a step is no news: its result follows
     last_work_ = work;
     std::fprintf(stream_, "%s\n", last_work_.c_str());
     std::fflush(stream_);

@@ -3,6 +3,7 @@
 #include <QDir>
 #include <QFile>
 #include <QGuiApplication>
+#include <clocale>
 
 #include "core/error.h"
 
@@ -20,6 +21,10 @@ void provideRuntimeFolder() {
 
 }  // namespace
 
+void useDecimalPoints() {
+  std::setlocale(LC_NUMERIC, "C");
+}
+
 void haveGuiApplication() {
   if (QCoreApplication::instance()) {
     require(qobject_cast<QGuiApplication*>(QCoreApplication::instance()) != nullptr,
@@ -32,6 +37,7 @@ void haveGuiApplication() {
   static char* arguments[] = {name, option, platform, nullptr};
   static auto* const application = new QGuiApplication{argument_count, arguments};
   Q_UNUSED(application);
+  useDecimalPoints();
 }
 
 }  // namespace sinew

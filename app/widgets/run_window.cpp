@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app/model/workspace.h"
+#include "app/report/gui_application.h"
 #include "app/widgets/main_window.h"
 #include "app/widgets/report_pages.h"
 #include "app/widgets/theme.h"
@@ -18,6 +19,7 @@ int runWindow(int argc, char** argv, const std::filesystem::path& resource_dir) 
   QSurfaceFormat::setDefaultFormat(VtkView::defaultFormat());
   QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QApplication application{argc, argv};
+  useDecimalPoints();
   QApplication::setApplicationName("Sinew");
   QApplication::setQuitOnLastWindowClosed(true);
   try {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "core/model/model.h"
@@ -21,8 +22,14 @@ class Findings {
   Warnings warnings_;
 };
 
+std::string twoDecimals(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 std::string mm(double length_m) {
-  return std::to_string(1000 * length_m) + " mm";
+  return twoDecimals(1000 * length_m) + " mm";
 }
 
 bool isSegment(const Skeleton& s, int index) {
@@ -70,7 +77,7 @@ std::set<int> checkAnchors(const MusculotendonUnit& unit, const Skeleton& s, Fin
 }
 
 void checkUnit(const MusculotendonUnit& unit, const Skeleton& s, const std::vector<RigidTransform>& X_WB,
-               Findings& findings) {
+               bool shortened, Findings& findings) {
   if (!(unit.max_isometric_force_N > 0) || !(unit.optimal_fiber_length_m > 0) || !(unit.tendon_slack_length_m > 0))
     return findings.add("muscle_parameters", unit.name, "force, fibre or tendon length is not positive");
   if (unit.path.size() < 2) return findings.add("muscle_path", unit.name, "fewer than two points");
@@ -86,7 +93,8 @@ void checkUnit(const MusculotendonUnit& unit, const Skeleton& s, const std::vect
   const double fiber = equilibrium(unit, length_m, 0).normalized_fiber_length;
   if (fiber > 1.15 || fiber < 0.3)  // what the fit of lengths leaves out in the reference, with a margin for shapes
     findings.add("muscle_standing_fiber", unit.name,
-                 "its fibre is at " + std::to_string(fiber) + " of its optimal length when standing");
+                 "its fibre is at " + twoDecimals(fiber) + " of its optimal length when standing upright" +
+                     (shortened ? ", as expected of a muscle that the examination found short" : ""));
   if (length_m > longestLength_m(unit))
     findings.add("muscle_overstretched", unit.name,
                  "standing stretches it " + mm(length_m - longestLength_m(unit)) + " beyond its longest length");
@@ -127,7 +135,8 @@ Warnings validateModel(const Model& model) {
   std::set<std::string> names;
   for (const auto& unit : model.musculature.units) {
     if (!names.insert(unit.name).second) findings.add("muscle_name", unit.name, "exists twice");
-    checkUnit(unit, s, X_WB, findings);
+    const auto factor = model.length_factors.find(unit.name);
+    checkUnit(unit, s, X_WB, factor != model.length_factors.end() && factor->second < 1, findings);
   }
   for (const auto& [name, factor] : model.length_factors)
     if (!names.contains(name) || !(factor > 0))

@@ -48,6 +48,14 @@ PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& m
   return e;
 }
 
+IsometricTorque isometricTorque(const Musculature& musculature, const PostureEvaluation& evaluation) {
+  Eigen::VectorXd force_N(evaluation.length_m.size());
+  for (Eigen::Index i = 0; i < force_N.size(); ++i)
+    force_N[i] = equilibrium(musculature.units[static_cast<std::size_t>(i)], evaluation.length_m[i], 1).force_N;
+  return {.increasing_Nm = evaluation.moment_arm_m.cwiseMax(0).transpose() * force_N,
+          .decreasing_Nm = evaluation.moment_arm_m.cwiseMin(0).transpose() * force_N};
+}
+
 MotionCurve motionCurve(const Skeleton& skeleton, const MusculotendonUnit& unit, const JointMotion& motion,
                         int samples) {
   require(samples >= 2, "motionCurve: at least two samples");

@@ -32,6 +32,14 @@ struct PostureEvaluation {
 /// Everything at one posture.
 PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture);
 
+/// The torque about every clinical coordinate when all units that turn that way are fully active and hold still:
+/// sum of moment arm * force at activation 1, passive share included; the other units are left out.
+struct IsometricTorque {
+  Eigen::VectorXd increasing_Nm;  ///< >= 0 [N for translations]
+  Eigen::VectorXd decreasing_Nm;  ///< <= 0
+};
+IsometricTorque isometricTorque(const Musculature& musculature, const PostureEvaluation& evaluation);
+
 /// One unit over a joint motion, sampled evenly in theta.
 struct MotionCurve {
   std::vector<double> theta;  ///< 0 .. 1

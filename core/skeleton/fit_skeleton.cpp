@@ -159,7 +159,7 @@ class SkeletonFitter {
       problem.SetParameterLowerBound(shared.x(), i, body_.lower(active[i]));
       problem.SetParameterUpperBound(shared.x(), i, body_.upper(active[i]));
     }
-    CeresJob monitor{job_, "fit", settings.max_iterations, from, to};
+    CeresJob monitor{job_, "fitting shape and posture", settings.max_iterations, from, to};
     auto solver = solverOptions(monitor, settings.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
     solver.function_tolerance = settings.function_tolerance;
     solver.initial_trust_region_radius = 1e8;  // the priors regularize: full Gauss-Newton steps from the start

@@ -59,6 +59,10 @@ TEST(CliCase, DemoGoesTheWholeWayAndStatesItsTruth) {
   EXPECT_THAT(stageValues(document, "outcome"), Each(std::string{"converged"}));
   EXPECT_THAT(readFile(document["files"]["report"].get<std::string>()), StartsWith("%PDF"));
   EXPECT_EQ(documentOf(sinewProgram({"model", "validate", document["files"]["model"], "--json"}))["valid"], true);
+  EXPECT_THAT(demo().result.err, AllOf(HasSubstr("rendering view 1: rays through the body\n"),
+                                       HasSubstr("fitting shape and posture\n")));
+  const auto skeleton = demo().result.err.find("\nSkeleton\n");  // a title is said once, not again at its end
+  EXPECT_EQ(demo().result.err.find("\nSkeleton\n", skeleton + 1), std::string::npos);
   int within = 0, all = 0;
   for (const auto& row : document["truth_comparison"]) {
     if (row["lower95"].is_null()) continue;
@@ -190,6 +194,19 @@ TEST(CliCase, NewMakesACaseFromTheFilesOfAnother) {
   EXPECT_EQ(more.status, 2);
   EXPECT_THAT(documentOf(more)["error"]["message"].get<std::string>(), HasSubstr("no landmark has been picked"));
   EXPECT_EQ(documentOf(more)["stages"].size(), 2u);
+}
+
+TEST(CliCase, NewLeavesNothingBehindWhenItRefuses) {
+  const test::TemporaryFolder folder;
+  const std::string made = (folder / "made").string(), image = demo().path() + "/images/view1.dcm";
+  const ProgramResult twice = sinewProgram({"new", made, "--image", image, "--image", image});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("the same image twice"));
+  const ProgramResult tall = sinewProgram(
+      {"new", made, "--image", image, "--image", demo().path() + "/images/view2.dcm", "--height-m", "175"});
+  EXPECT_EQ(tall.status, 2);
+  EXPECT_THAT(tall.err, HasSubstr("sinew new: patient.height_m"));
+  EXPECT_FALSE(std::filesystem::exists(made));
 }
 
 TEST(CliCase, WrongStageNamesAreAnsweredWithTheNearest) {

@@ -74,6 +74,28 @@ TEST(CliModel, EvaluateAnswersWrongNames) {
   EXPECT_THAT(quantity.err, HasSubstr("nearest: lengths"));
 }
 
+TEST(CliModel, EvaluateGivesTheIsometricTorqueOfBothWays) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "postures.json").string();
+  writeFileAtomically(file, R"([{"name":"sitting","coordinates_deg":{"knee_flexion_r":60,"hip_flexion_r":60}}])");
+  const ProgramResult result =
+      sinewProgram({"evaluate", "reference", "--postures", file, "--what", "peak_torque", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json knee = documentOf(result)["postures"][0]["peak_torque_Nm"]["knee_flexion_r"];
+  // Strong young men extend with 150-350 N m (isometric, seated); the sum of all flexors is below that of extensors.
+  EXPECT_LT(knee["decreasing"].get<double>(), -100);
+  EXPECT_GT(knee["decreasing"].get<double>(), -450);
+  EXPECT_GT(knee["increasing"].get<double>(), 40);
+  EXPECT_LT(knee["increasing"].get<double>(), -knee["decreasing"].get<double>());
+}
+
+TEST(CliModel, EvaluateNamesAFieldThatIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "postures.json").string();
+  writeFileAtomically(file, R"([{"coordinates_deg":{}}])");
+  EXPECT_THAT(sinewProgram({"evaluate", "reference", "--postures", file}).err, HasSubstr("[0].name: "));
+}
+
 TEST(CliModel, EvaluatePrintsCsvForPeople) {
   const test::TemporaryFolder folder;
   const std::string file = (folder / "postures.json").string();

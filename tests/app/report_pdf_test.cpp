@@ -5,10 +5,12 @@
 
 #include <QImage>
 #include <array>
+#include <clocale>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/report/gui_application.h"
 #include "app/report/moment_plot.h"
 #include "app/report/report_layout.h"
 #include "app/report/table_layout.h"
@@ -67,6 +69,14 @@ class ReportPdf : public testing::Test {
   static inline test::TemporaryFolder* folder_ = nullptr;
   static inline ReportDocument* document_ = nullptr;
 };
+
+/// A locale other than "C" that every machine has stands for those with a decimal comma.
+TEST(HaveGuiApplication, KeepsTheNumberFormatFromTheUsersLocale) {
+  setenv("LC_ALL", "C.UTF-8", 1);
+  haveGuiApplication();
+  EXPECT_STREQ(std::setlocale(LC_NUMERIC, nullptr), "C");
+  unsetenv("LC_ALL");
+}
 
 TEST_F(ReportPdf, EveryPageSaysThatItIsNoMedicalDevice) {
   if (!haveTool("pdftotext")) GTEST_SKIP() << "pdftotext (poppler-utils) is not there";

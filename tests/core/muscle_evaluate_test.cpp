@@ -31,6 +31,22 @@ TEST_F(EvaluatePosture, StandingIsValidAndNearlyFree) {
     EXPECT_LT(std::abs(e.passive_torque[skeleton_.coordinateIndex(name)]), 6) << name;  // a tenth of an exam's torque
 }
 
+TEST_F(EvaluatePosture, IsometricTorqueIsForceTimesArmOfThoseWhoTurnThatWay) {
+  const auto e = at({{"hip_flexion_r", 40}, {"knee_flexion_r", 60}});
+  const auto torque = isometricTorque(musculature_, e);
+  const int knee = skeleton_.coordinateIndex("knee_flexion_r");
+  double flexing = 0, extending = 0;
+  for (Eigen::Index i = 0; i < e.length_m.size(); ++i) {
+    const double arm_m = e.moment_arm_m(i, knee);
+    (arm_m > 0 ? flexing : extending) +=
+        arm_m * equilibrium(musculature_.units[static_cast<std::size_t>(i)], e.length_m[i], 1).force_N;
+  }
+  EXPECT_NEAR(torque.increasing_Nm[knee], flexing, 1e-9);
+  EXPECT_NEAR(torque.decreasing_Nm[knee], extending, 1e-9);
+  EXPECT_GT(flexing, 0);
+  EXPECT_LT(extending, 0);
+}
+
 TEST_F(EvaluatePosture, TorqueIsForceTimesArm) {
   const auto e = at({{"hip_flexion_r", 90}, {"knee_flexion_r", 20}});
   const int knee = skeleton_.coordinateIndex("knee_flexion_r");

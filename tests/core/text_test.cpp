@@ -14,6 +14,10 @@ TEST(SplitCsvLine, HonoursQuotesAndBlanks) {
   EXPECT_THAT(splitCsvLine(""), ElementsAre(""));
 }
 
+TEST(SplitCsvLine, DropsTheByteOrderMarkOfSpreadsheets) {
+  EXPECT_THAT(splitCsvLine("\xEF\xBB\xBFname,view"), testing::ElementsAre("name", "view"));
+}
+
 TEST(NearestNames, PutsTheTypoFirst) {
   const std::vector<std::string> known{"hip_flexion_r", "knee_flexion_r", "soleus_medial_r"};
   EXPECT_EQ(nearestNames("knee_flexoin_r", known, 1).front(), "knee_flexion_r");

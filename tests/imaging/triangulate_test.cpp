@@ -135,6 +135,13 @@ TEST(TriangulateAll, NamesTheGrossMismatchAndTheSingleSighting) {
     EXPECT_THAT(w.message, testing::HasSubstr(w.code == "seen_once" ? "'L5'" : "'L2'"));
 }
 
+TEST(TriangulateAll, NamesPicksOfTheOtherView) {
+  const BiplanarRig rig = test::coneBeamRig();
+  auto sightings = seeMany(rig);
+  for (auto& s : sightings) s.view = 1 - s.view;
+  EXPECT_THAT(codes(triangulateAll(rig, sightings).warnings), testing::Contains("swapped_views"));
+}
+
 TEST(TriangulateAll, NamesTheViewWhoseRowsWereCountedFromBelow) {
   const BiplanarRig rig = test::coneBeamRig();
   for (int flipped : {0, 1, 2}) {
