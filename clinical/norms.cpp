@@ -71,6 +71,10 @@ Norm NormTable::Entry::at(const NormQuery& who) const {
   return result;
 }
 
+std::string headingOf(const FigureText& text) {
+  return text.convention.empty() ? text.title : text.title + " (" + text.convention + ")";
+}
+
 FigureText NormTable::textOf(std::string_view quantity) const {
   for (const auto& figure : figures_)
     if (figure.text.quantity == quantity) return figure.text;

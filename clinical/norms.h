@@ -43,6 +43,9 @@ struct FigureText {
   std::string definition;
 };
 
+/// "Hip-knee-ankle angle (varus +, 0 = straight)": how report and window head a figure.
+std::string headingOf(const FigureText& text);
+
 class NormTable {
  public:
   /// Title and definition; a quantity that the file does not know is called by its name.

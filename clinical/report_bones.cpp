@@ -73,8 +73,7 @@ ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const Norm
     if (!shown.insert(figure.quantity).second) continue;
     const auto text = norms.textOf(figure.quantity);
     const auto norm = norms.normOf(figure.quantity, who);
-    std::vector<std::string> row{text.title + (text.convention.empty() ? "" : " (" + text.convention + ")"),
-                                 figure.unit};
+    std::vector<std::string> row{headingOf(text), figure.unit};
     std::array<double, 2> z{kNaN, kNaN};
     const auto score = [&](const BoneFigure* f) { return norm && usable(f) ? norm->zScore(f->value) : kNaN; };
     const auto judged = [&](const BoneFigure* f) { return valueText(f) + (norm ? judgement(f, *norm) : ""); };

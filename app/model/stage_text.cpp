@@ -1,6 +1,7 @@
 #include "app/model/stage_text.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -19,13 +20,51 @@ QString landmarkLine(const Case& c) {
   if (c.sightings.empty()) return tr("No landmark placed");
   std::set<std::string> names;
   for (const auto& s : c.sightings) names.insert(s.name);
-  return plural(names.size(), "landmark", "landmarks") + ", " + plural(c.sightings.size(), "sighting", "sightings");
+  return plural(names.size(), "landmark", "landmarks") + ' ' + tr("placed");
 }
 
 QString examLine(const Case& c) {
   std::size_t measured = 0;
   for (const auto& e : c.exam.entries) measured += e.measured_deg ? 1 : 0;
   return measured ? plural(measured, "angle measured", "angles measured") : tr("Nothing measured");
+}
+
+QString calibrationLine(const BiplanarRig& rig) {
+  const QString method = methodTitle(rig.calibration.method);
+  return std::isfinite(rig.calibration.rms_px) ? tr("%1, %2 px").arg(method, figure(rig.calibration.rms_px, 2))
+                                               : method;
+}
+
+QString landmarkResultLine(const Triangulation& landmarks) {
+  const QString points = plural(landmarks.points.size(), "point", "points");
+  return std::isfinite(landmarks.rms_px) ? tr("%1, RMS %2 px").arg(points, figure(landmarks.rms_px, 2)) : points;
+}
+
+QString examResultLine(const ExamFit& fit) {
+  const auto measured = std::ranges::count_if(fit.tests, [](const auto& t) { return t.measured_deg.has_value(); });
+  return plural(std::size_t(measured), "angle", "angles") + ", " +
+         plural(fit.length_factors.size(), "muscle", "muscles");
+}
+
+/// In few words, since the rail is narrow; empty if there is no result.
+QString resultLine(const Case& c, Stage stage) {
+  switch (stage) {
+    case Stage::Images:
+      return plural(c.images.size(), "radiograph", "radiographs") + ' ' + tr("checked");
+    case Stage::Calibration:
+      return c.rig ? calibrationLine(*c.rig) : QString{};
+    case Stage::Landmarks:
+      return c.landmarks ? landmarkResultLine(*c.landmarks) : QString{};
+    case Stage::Skeleton:
+      return c.skeleton ? tr("Fitted, RMS %1 px").arg(figure(c.skeleton->rms_px, 2)) : QString{};
+    case Stage::Musculature:
+      return c.model ? tr("Model built") : QString{};
+    case Stage::Exam:
+      return c.exam_fit ? examResultLine(*c.exam_fit) : QString{};
+    case Stage::Report:
+      return c.report ? tr("Report written") : QString{};
+  }
+  return {};
 }
 
 QString enteredLine(const Case& c, Stage stage) {
@@ -70,9 +109,9 @@ QString stateTitle(StageState state) {
 
 QString stageLine(const Case& c, Stage stage) {
   const auto record = c.stages.find(stage);
-  if (record != c.stages.end() && !record->second.summary.empty())
-    return QString::fromStdString(record->second.summary);
-  return enteredLine(c, stage);
+  const bool done = record != c.stages.end() && record->second.outcome == Outcome::Converged;
+  const QString result = done ? resultLine(c, stage) : QString{};
+  return result.isEmpty() ? enteredLine(c, stage) : result;
 }
 
 QString stateExplanation(StageState state, Stage stage) {
@@ -126,6 +165,16 @@ QString spacingText(const Radiograph& radiograph) {
   return QStringLiteral("%1 × %2 mm, %3").arg(s.column_mm, 0, 'f', 3).arg(s.row_mm, 0, 'f', 3).arg(source);
 }
 
+QString methodTitle(const std::string& method) {
+  if (method == "bead_phantom") return tr("Bead phantom");
+  if (method == "dicom_slot_scan") return tr("Slot scanner tags");
+  if (method == "dicom_nominal") return tr("Nominal image tags");
+  if (method == "autoscoper") return tr("Autoscoper file");
+  if (method == "mayacam") return tr("MayaCam file");
+  if (method == "json") return tr("Geometry file");
+  return QString::fromStdString(method);
+}
+
 QString readableName(const std::string& name) {
   QString text = QString::fromStdString(name);
   QString side;
@@ -133,7 +182,6 @@ QString readableName(const std::string& name) {
   if (text.endsWith("_l")) side = tr(", left");
   if (!side.isEmpty()) text.chop(2);
   text.replace('_', ' ');
-  if (text == "hka") text = "HKA angle";
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text + side;
 }

@@ -9,7 +9,8 @@ namespace sinew {
 /// "Ready", "Out of date", ...: one or two words for a badge.
 QString stateTitle(StageState state);
 
-/// One line under a stage's title: its key figures if it ran, what was entered otherwise. No patient data.
+/// One line under a stage's title: its key figures in human words if it ran, what was entered otherwise. No patient
+/// data.
 QString stageLine(const Case& c, Stage stage);
 
 /// Why a stage cannot run or should run again; empty if there is nothing to say.
@@ -17,6 +18,9 @@ QString stateExplanation(StageState state, Stage stage);
 
 /// "0.143 x 0.143 mm (at the detector)", "size of a pixel unknown".
 QString spacingText(const Radiograph& radiograph);
+
+/// "bead_phantom" -> "Bead phantom"; a method that is not known stays as it is.
+QString methodTitle(const std::string& method);
 
 /// "femur_length" -> "Femur length", "vastus_lateralis_r" -> "Vastus lateralis, right".
 QString readableName(const std::string& name);

@@ -41,6 +41,11 @@ const ExamProtocol& Workspace::protocol() {
   return *protocol_;
 }
 
+const NormTable& Workspace::norms() {
+  if (!norms_) norms_ = loadNorms(resource_dir_);
+  return *norms_;
+}
+
 std::shared_ptr<const Model> Workspace::patientModel() {
   const Case& c = document_.current();
   const std::string key = modelKey(c);

@@ -9,6 +9,7 @@
 #include "app/model/job_runner.h"
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
+#include "clinical/norms.h"
 #include "core/rom/exam_test.h"
 
 namespace sinew {
@@ -34,6 +35,8 @@ class Workspace : public QObject {
   std::shared_ptr<const Model> reference();
   /// The forms of the examination. GUI thread. @throws InputError.
   const ExamProtocol& protocol();
+  /// Titles and conventions of the figures. GUI thread. @throws InputError.
+  const NormTable& norms();
   /// The patient's model as far as the case has got; nullptr before the skeleton is fitted. Kept until the results it
   /// is made from change. GUI thread. @throws InputError.
   std::shared_ptr<const Model> patientModel();
@@ -60,6 +63,7 @@ class Workspace : public QObject {
   std::mutex reference_mutex_;
   std::shared_ptr<const Model> reference_;
   std::optional<ExamProtocol> protocol_;
+  std::optional<NormTable> norms_;
   std::string patient_model_key_;
   std::shared_ptr<const Model> patient_model_;
   JobRunner jobs_;  ///< last: its thread ends before what it uses goes

@@ -19,10 +19,6 @@ struct RadiographPicture {
   double px_per_100_mm = 0;           ///< at the patient's depth, vertical; 0 = unknown
 };
 
-/// Bones of the model that the landmarks in the images speak about: those on segments that carry a sighted landmark,
-/// and the patellae between them. The rest of the body is only the population's and is not drawn over images.
-std::vector<BoneMesh> supportedBones(const Model& model, const std::vector<Sighting>& sightings);
-
 /// `bones` posed by X_WB are drawn into the case's view. @throws InputError for an unreadable image.
 RadiographPicture radiographPicture(const Case& c, const std::filesystem::path& case_dir, int view,
                                     const std::vector<BoneMesh>& bones, const Skeleton& skeleton,

@@ -1,6 +1,7 @@
 #include "app/report/report_document.h"
 
 #include "app/scene/model_scene.h"
+#include "clinical/supported_bones.h"
 
 namespace sinew {
 namespace {

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QRadioButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,16 +25,6 @@
 namespace sinew {
 namespace {
 
-QString methodTitle(const std::string& method) {
-  if (method == "bead_phantom") return QObject::tr("Bead phantom");
-  if (method == "dicom_slot_scan") return QObject::tr("Slot scanner, from the image tags");
-  if (method == "dicom_nominal") return QObject::tr("Nominal, from the image tags");
-  if (method == "autoscoper") return QObject::tr("Autoscoper file");
-  if (method == "mayacam") return QObject::tr("MayaCam file");
-  if (method == "json") return QObject::tr("Geometry file");
-  return QString::fromStdString(method);
-}
-
 /// Rows of the geometry table: label and value of one view.
 std::vector<std::pair<QString, QString>> describe(const View& view) {
   using Rows = std::vector<std::pair<QString, QString>>;
@@ -47,7 +38,7 @@ std::vector<std::pair<QString, QString>> describe(const View& view) {
           return {
               {QObject::tr("Projection"), QObject::tr("cone beam")},
               {QObject::tr("Focal length"), QObject::tr("%1 × %2 px").arg(figure(p.fx_px, 1), figure(p.fy_px, 1))},
-              {QObject::tr("Principal point"), QObject::tr("%1, %2 px").arg(figure(p.cx_px, 1), figure(p.cy_px, 1))},
+              {QObject::tr("Principal point, px"), QObject::tr("%1, %2").arg(figure(p.cx_px, 1), figure(p.cy_px, 1))},
               {QObject::tr("Source to origin"), mm(view.p_CW.norm()) + " mm"}};
         else if constexpr (std::is_same_v<P, SlotScan>)
           return {{QObject::tr("Projection"), QObject::tr("slot scan")},
@@ -55,8 +46,7 @@ std::vector<std::pair<QString, QString>> describe(const View& view) {
                   {QObject::tr("Pixel at isocentre"),
                    QObject::tr("%1 × %2 mm")
                        .arg(figure(1000 * p.column_spacing_m, 3), figure(1000 * p.row_spacing_m, 3))},
-                  {QObject::tr("Isocentre in image"),
-                   QObject::tr("%1, %2 px").arg(figure(p.u0_px, 1), figure(p.v0_px, 1))}};
+                  {QObject::tr("Isocentre, px"), QObject::tr("%1, %2").arg(figure(p.u0_px, 1), figure(p.v0_px, 1))}};
         else
           return {{QObject::tr("Projection"), QObject::tr("parallel")},
                   {QObject::tr("Pixel"),
@@ -154,12 +144,13 @@ QWidget* CalibrationPage::makeResultCard() {
   card->content().addLayout(figures);
   method_ = makeLabel({}, "small");
   method_->setObjectName("calibration_method");
+  method_->setWordWrap(true);
   card->content().addWidget(method_);
   geometry_ = makeTable("geometry_table", {tr("Geometry"), tr("Frontal"), tr("Lateral")});
   geometry_->setSelectionMode(QAbstractItemView::NoSelection);
   geometry_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   geometry_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-  geometry_->setWordWrap(true);
+  wrapRows(*geometry_);
   card->content().addWidget(geometry_, 1);
   return card;
 }
@@ -220,12 +211,18 @@ void CalibrationPage::showBeads() {
 }
 
 void CalibrationPage::askForRig() {
-  const QStringList names =
-      QFileDialog::getOpenFileNames(this, tr("Calibration: one rig file, or one text file per view"), {},
-                                    tr("Calibrations (*.json *.txt);;All files (*)"));
+  // The two kinds of text file cannot be told apart by their names: the person says which.
+  const std::pair<QString, const char*> formats[] = {{tr("Sinew rig, one file (*.json)"), "json"},
+                                                     {tr("Autoscoper, one text file per view (*.txt)"), "autoscoper"},
+                                                     {tr("MayaCam, one text file per view (*.txt)"), "mayacam"}};
+  QStringList filters;
+  for (const auto& [filter, method] : formats) filters << filter;
+  QString chosen = filters.front();
+  const QStringList names = QFileDialog::getOpenFileNames(this, tr("Calibration: choose the format, then the files"),
+                                                          {}, filters.join(";;"), &chosen);
   std::vector<std::filesystem::path> files;
   for (const auto& name : names) files.emplace_back(name.toStdString());
-  if (!files.empty()) importRig(files);
+  if (!files.empty()) importRig(files, formats[std::max<qsizetype>(0, filters.indexOf(chosen))].second);
 }
 
 void CalibrationPage::askForPhantom() {
@@ -238,10 +235,9 @@ void CalibrationPage::askForPhantom() {
   if (!beads.empty()) importPhantom({frontal, lateral}, beads);
 }
 
-void CalibrationPage::importRig(const std::vector<std::filesystem::path>& files) {
+void CalibrationPage::importRig(const std::vector<std::filesystem::path>& files, const std::string& method) {
   workspace().document().edit(tr("Import calibration"), [&](Case& c) {
-    const bool json = files.size() == 1 && files[0].extension() == ".json";
-    useImportedRig(c, json ? loadRig(files[0]) : importTextCalibration(files, "autoscoper"));
+    useImportedRig(c, method == "json" ? loadRig(files[0]) : importTextCalibration(files, method));
   });
   refresh();
 }

@@ -18,8 +18,8 @@ class CalibrationPage : public StagePage {
  public:
   explicit CalibrationPage(Workspace& workspace);
 
-  /// One JSON rig, or two Autoscoper / MayaCam text files.
-  void importRig(const std::vector<std::filesystem::path>& files);
+  /// `method`: "json" for one rig file, "autoscoper" or "mayacam" for one text file per view.
+  void importRig(const std::vector<std::filesystem::path>& files, const std::string& method);
   void importPhantom(const std::array<std::filesystem::path, 2>& images, const std::filesystem::path& beads);
 
  protected:

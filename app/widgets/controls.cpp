@@ -1,9 +1,15 @@
 #include "app/widgets/controls.h"
 
 #include <QFileDialog>
+#include <QHBoxLayout>
 #include <QHeaderView>
+#include <QHelpEvent>
 #include <QLabel>
+#include <QLineEdit>
+#include <QPainter>
 #include <QPushButton>
+#include <QStyle>
+#include <QToolTip>
 #include <QVBoxLayout>
 
 #include "app/widgets/theme.h"
@@ -25,6 +31,52 @@ Card::Card(const QString& heading, QWidget* parent) : QFrame{parent} {
   column->addLayout(content_, 1);
 }
 
+ElidedLabel::ElidedLabel(const char* role, QWidget* parent) : QLabel{parent} {
+  setProperty("role", role);
+  setTextFormat(Qt::PlainText);
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+}
+
+QString ElidedLabel::shownText() const {
+  return fontMetrics().elidedText(text(), Qt::ElideRight, contentsRect().width());
+}
+
+bool ElidedLabel::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip && toolTip().isEmpty()) {
+    if (isElided())
+      QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
+    else
+      QToolTip::hideText();
+    return true;
+  }
+  return QLabel::event(event);
+}
+
+void ElidedLabel::paintEvent(QPaintEvent*) {
+  QPainter painter{this};
+  style()->drawItemText(&painter, contentsRect(), int(alignment()), palette(), isEnabled(), shownText(),
+                        foregroundRole());
+}
+
+QLineEdit* makeSearchField(const QString& object_name, const QString& hint) {
+  constexpr int kSign_px = 16;
+  auto* field = new QLineEdit;
+  field->setObjectName(object_name);
+  field->setPlaceholderText(hint);
+  field->setAccessibleName(hint);
+  field->setClearButtonEnabled(true);
+  // QLineEdit's own leading action is placed without regard to the style sheet's minimum height: a label is not.
+  field->setTextMargins(kSign_px + 6, 0, 0, 0);
+  auto* sign = new QLabel;
+  sign->setPixmap(icon("search", colour::kMuted).pixmap(kSign_px, kSign_px));
+  sign->setAttribute(Qt::WA_TransparentForMouseEvents);
+  auto* line = new QHBoxLayout{field};
+  line->setContentsMargins(9, 0, 0, 0);
+  line->addWidget(sign);
+  line->addStretch();
+  return field;
+}
+
 QTableWidget* makeTable(const QString& object_name, const QStringList& headers) {
   auto* table = new QTableWidget{0, int(headers.size())};
   table->setObjectName(object_name);
@@ -42,6 +94,12 @@ QTableWidget* makeTable(const QString& object_name, const QStringList& headers) 
   table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   table->setWordWrap(false);
   return table;
+}
+
+void wrapRows(QTableWidget& table) {
+  table.setWordWrap(true);
+  QObject::connect(table.horizontalHeader(), &QHeaderView::sectionResized, &table,
+                   [&table] { table.resizeRowsToContents(); });
 }
 
 QTableWidgetItem* setCell(QTableWidget& table, int row, int column, const QString& text, Qt::Alignment alignment) {

@@ -1,10 +1,12 @@
 #pragma once
 #include <QFrame>
+#include <QLabel>
 #include <QString>
 #include <QStringList>
 #include <QTableWidget>
 #include <filesystem>
 
+class QLineEdit;
 class QPushButton;
 class QVBoxLayout;
 
@@ -21,8 +23,29 @@ class Card : public QFrame {
   QVBoxLayout* content_;
 };
 
+/// One line that ends in an ellipsis where it has no room; the whole text is then its tool tip.
+class ElidedLabel : public QLabel {
+  Q_OBJECT
+ public:
+  explicit ElidedLabel(const char* role, QWidget* parent = nullptr);
+  QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
+  bool isElided() const { return shownText() != text(); }
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  QString shownText() const;
+};
+
+/// A field to search a list with.
+QLineEdit* makeSearchField(const QString& object_name, const QString& hint);
+
 /// A table to read: whole rows, no grid, no editing.
 QTableWidget* makeTable(const QString& object_name, const QStringList& headers);
+/// Long cells go over several lines, and the rows follow the width of the columns.
+void wrapRows(QTableWidget& table);
 /// Text of a cell; made if it is not there yet.
 QTableWidgetItem* setCell(QTableWidget& table, int row, int column, const QString& text,
                           Qt::Alignment alignment = Qt::AlignLeft | Qt::AlignVCenter);

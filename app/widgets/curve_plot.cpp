@@ -81,7 +81,7 @@ void CurvePlot::paintEvent(QPaintEvent*) {
     painter.drawText(rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap, placeholder_);
     return;
   }
-  const QRectF area = QRectF{rect()}.adjusted(48, 26, -14, -38);
+  const QRectF area = QRectF{rect()}.adjusted(48, 42, -14, -38);
   const Range x = rangeX(), y = rangeY();
   const auto toX = [&](double value) { return area.left() + (value - x.low) / (x.high - x.low) * area.width(); };
   const auto toY = [&](double value) { return area.bottom() - (value - y.low) / (y.high - y.low) * area.height(); };
@@ -108,7 +108,7 @@ void CurvePlot::paintEvent(QPaintEvent*) {
                      figure(t, step_y < 1 ? 1 : 0));
   }
   painter.drawText(QRectF{area.left(), area.bottom() + 19, area.width(), 16}, Qt::AlignRight, x_title_);
-  painter.drawText(QRectF{4, 2, area.width(), 16}, Qt::AlignLeft, y_title_);
+  painter.drawText(QRectF{4, 20, area.width(), 16}, Qt::AlignLeft, y_title_);
 
   double legend_x = area.right();
   const auto legend = [&](const QString& name, const QPen& pen) {
@@ -143,7 +143,9 @@ void CurvePlot::paintEvent(QPaintEvent*) {
     } else {
       const bool near_right = toX(mark.value) > area.center().x();
       const QRectF box{near_right ? toX(mark.value) - 124 : toX(mark.value) + 4, area.top() + 2, 120, 16};
-      painter.drawText(box, near_right ? Qt::AlignRight : Qt::AlignLeft, mark.name);
+      const auto side = near_right ? Qt::AlignRight : Qt::AlignLeft;
+      painter.fillRect(painter.boundingRect(box, side, mark.name), QColor{255, 255, 255, 200});  // curves run below
+      painter.drawText(box, side, mark.name);
     }
   }
   painter.restore();

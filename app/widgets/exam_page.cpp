@@ -48,11 +48,29 @@ const ExamComparison* comparisonOf(const Case& c, const std::string& test, char 
   return nullptr;
 }
 
+/// What a person typed, with the signs that keyboards and habits add; nothing for an empty field.
+std::optional<double> typedNumber(const QString& text, const ExamTest& test, const char* field) {
+  QString number = text.trimmed();
+  number.remove(QChar{0xb0});
+  number.replace(QChar{0x2212}, '-').replace(',', '.');
+  if (number.isEmpty()) return std::nullopt;
+  return parseNumber(number.trimmed().toStdString(), test.title, field);
+}
+
+QString shortFigure(double value) {
+  return figure(value, 1).replace(".0", "");
+}
+
+/// The protocol's torque for this patient's mass.
+double usualThreshold(const Case& c, const ExamTest& test) {
+  return test.threshold_Nm * c.patient.mass_kg.value_or(kBodyMassOfThresholds_kg) / kBodyMassOfThresholds_kg;
+}
+
 double thresholdOf(const Case& c, const ExamTest& test, char side) {
   if (const auto* comparison = comparisonOf(c, test.id, side)) return comparison->threshold_Nm;
   const ExamEntry* entry = findExamEntry(c, test.id, side);
   if (entry && entry->threshold_Nm) return *entry->threshold_Nm;
-  return test.threshold_Nm * c.patient.mass_kg.value_or(kBodyMassOfThresholds_kg) / kBodyMassOfThresholds_kg;
+  return usualThreshold(c, test);
 }
 
 }  // namespace
@@ -155,14 +173,22 @@ QWidget* ExamPage::makeTestCard(const ExamTest& test) {
   auto* grid = new QGridLayout;
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(6);
-  const QString titles[] = {{},          tr("Measured"), tr("Remark"),    tr("Before"),
-                            tr("After"), tr("Residual"), tr("Limited by")};
-  for (int column = 0; column < 7; ++column)
-    grid->addWidget(makeLabel(titles[column].toUpper(), "caption"), 0, column);
+  const std::pair<QString, QString> titles[] = {
+      {{}, {}},
+      {tr("Measured °"), tr("Measured angle; empty: not measured")},
+      {tr("Stop N m"), tr("Torque at which the examiner stopped; empty: the protocol's, scaled by body mass")},
+      {tr("Remark"), tr("Reason why it was not measured, end-feel")},
+      {tr("Before"), tr("Simulated on the model before its muscle lengths were solved")},
+      {tr("After"), tr("Simulated on the model afterwards")},
+      {tr("Residual"), tr("Measured minus after")}};
+  for (int column = 0; column < int(std::size(titles)); ++column) {
+    auto* title = makeLabel(titles[column].first, "caption");
+    title->setToolTip(titles[column].second);
+    grid->addWidget(title, 0, column);
+  }
   lines_.emplace(std::pair{test.id, 'r'}, makeLine(test, 'r', *grid, 1));
-  lines_.emplace(std::pair{test.id, 'l'}, makeLine(test, 'l', *grid, 2));
-  grid->setColumnStretch(2, 3);
-  grid->setColumnStretch(6, 4);
+  lines_.emplace(std::pair{test.id, 'l'}, makeLine(test, 'l', *grid, 3));
+  grid->setColumnStretch(3, 1);
   card->content().addLayout(grid);
   return card;
 }
@@ -175,35 +201,45 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
   line.measured = new QLineEdit;
   line.measured->setObjectName("measured_" + name);
   line.measured->setAccessibleName(QString::fromStdString(test.title) + ", " + side_title + tr(", degrees"));
-  line.measured->setPlaceholderText(tr("not measured"));
-  line.measured->setFixedWidth(96);
+  line.measured->setPlaceholderText(tr("none"));
+  line.measured->setFixedWidth(72);
   line.measured->setAlignment(Qt::AlignRight);
   grid.addWidget(line.measured, row, 1);
+  line.stop = new QLineEdit;
+  line.stop->setObjectName("stop_" + name);
+  line.stop->setAccessibleName(QString::fromStdString(test.title) + ", " + side_title + tr(", stop torque in N m"));
+  line.stop->setFixedWidth(64);
+  line.stop->setAlignment(Qt::AlignRight);
+  grid.addWidget(line.stop, row, 2);
   line.note = new QLineEdit;
   line.note->setObjectName("note_" + name);
   line.note->setAccessibleName(tr("Remark or reason, ") + side_title);
   line.note->setPlaceholderText(tr("reason, end-feel"));
   line.note->setMinimumWidth(60);
   line.note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  grid.addWidget(line.note, row, 2);
+  grid.addWidget(line.note, row, 3);
   const auto result = [&](QLabel*& label, const QString& key, int column) {
     label = new QLabel;
     label->setObjectName(key + name);
     label->setMinimumWidth(44);
     grid.addWidget(label, row, column);
   };
-  result(line.before, "before_", 3);
-  result(line.after, "after_", 4);
-  result(line.residual, "residual_", 5);
-  result(line.limiting, "limiting_", 6);
-  line.limiting->setProperty("role", "small");
-  line.limiting->setMinimumWidth(60);
-  line.limiting->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  result(line.before, "before_", 4);
+  result(line.after, "after_", 5);
+  result(line.residual, "residual_", 6);
+  line.limiting = makeLabel({}, "small");
+  line.limiting->setObjectName("limiting_" + name);
+  line.limiting->setWordWrap(true);
+  grid.addWidget(line.limiting, row + 1, 1, 1, 6);
 
   const std::string id = test.id;
   connect(line.measured, &QLineEdit::editingFinished, this, [this, id, side] {
     const ExamTest& edited = workspace().protocol().test(id);
     enterMeasured(edited, side, lines_.at({id, side}).measured->text());
+  });
+  connect(line.stop, &QLineEdit::editingFinished, this, [this, id, side] {
+    const ExamTest& edited = workspace().protocol().test(id);
+    enterStop(edited, side, lines_.at({id, side}).stop->text());
   });
   connect(line.note, &QLineEdit::editingFinished, this, [this, id, side] {
     const std::string text = lines_.at({id, side}).note->text().trimmed().toStdString();
@@ -213,17 +249,20 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
 }
 
 void ExamPage::enterMeasured(const ExamTest& test, char side, const QString& text) {
-  QString number = text.trimmed();
-  number.remove(QChar{0xb0});
-  number.replace(QChar{0x2212}, '-').replace(',', '.');
   const QString label =
       tr("Set %1, %2").arg(QString::fromStdString(test.title).toLower(), sideName(std::string_view{&side, 1}));
   workspace().document().edit(label, [&](Case& c) {
-    std::optional<double> value_deg;
-    if (!number.isEmpty()) value_deg = parseNumber(number.toStdString(), test.title, "measured angle");
-    setMeasured(c, workspace().protocol(), test.id, side, value_deg);
+    setMeasured(c, workspace().protocol(), test.id, side, typedNumber(text, test, "measured angle"));
   });
   refreshLine(test, side, lines_.at({test.id, side}));  // a refused value gives way to the case's
+}
+
+void ExamPage::enterStop(const ExamTest& test, char side, const QString& text) {
+  const QString label = tr("Set stop torque of %1, %2")
+                            .arg(QString::fromStdString(test.title).toLower(), sideName(std::string_view{&side, 1}));
+  workspace().document().edit(
+      label, [&](Case& c) { setThreshold(c, test.id, side, typedNumber(text, test, "stop torque")); });
+  refreshLine(test, side, lines_.at({test.id, side}));
 }
 
 void ExamPage::refresh() {
@@ -239,13 +278,15 @@ void ExamPage::refreshLine(const ExamTest& test, char side, Line& line) {
   const Case& c = shownCase();
   const ExamEntry* entry = findExamEntry(c, test.id, side);
   const bool measured = entry && entry->measured_deg;
-  line.measured->setText(measured ? figure(*entry->measured_deg, 1).replace(".0", "") : QString{});
+  line.measured->setText(measured ? shortFigure(*entry->measured_deg) : QString{});
   const bool doubt =
       measured && (*entry->measured_deg < test.doubt_min_deg || *entry->measured_deg > test.doubt_max_deg);
   setRole(line.measured, "state", doubt ? "doubt" : "");
   line.measured->setToolTip(
       doubt ? tr("Unusual: expected %1 to %2").arg(degrees(test.doubt_min_deg), degrees(test.doubt_max_deg))
             : QString::fromStdString(test.convention));
+  line.stop->setText(entry && entry->threshold_Nm ? shortFigure(*entry->threshold_Nm) : QString{});
+  line.stop->setPlaceholderText(figure(usualThreshold(c, test), 0));
   line.note->setText(entry ? QString::fromStdString(entry->note) : QString{});
 
   const ExamComparison* result = comparisonOf(c, test.id, side);
@@ -258,8 +299,8 @@ void ExamPage::refreshLine(const ExamTest& test, char side, Line& line) {
   if (result && result->stopped_by_joint) muscles << tr("joint stop");
   if (result)
     for (const auto& muscle : result->limiting_muscles) muscles << readableName(muscle).section(',', 0, 0);
-  line.limiting->setText(muscles.isEmpty() ? "–" : muscles.join(", "));
-  line.limiting->setToolTip(muscles.join(", "));
+  line.limiting->setText(tr("Limited by %1").arg(muscles.join(", ")));
+  line.limiting->setVisible(!muscles.isEmpty());
 }
 
 void ExamPage::refreshPlot() {

@@ -28,12 +28,13 @@ class ExamPage : public StagePage {
 
  private:
   struct Line {
-    QLineEdit *measured, *note;
+    QLineEdit *measured, *stop, *note;
     QLabel *before, *after, *residual, *limiting;
   };
   void buildForm();
   QWidget* makeTestCard(const ExamTest& test);
   Line makeLine(const ExamTest& test, char side, QGridLayout& grid, int row);
+  void enterStop(const ExamTest& test, char side, const QString& text);
   void enterMeasured(const ExamTest& test, char side, const QString& text);
   void refreshLine(const ExamTest& test, char side, Line& line);
   void refreshPlot();

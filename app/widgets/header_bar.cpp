@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "app/model/workspace.h"
+#include "app/widgets/controls.h"
 #include "app/widgets/theme.h"
 
 namespace sinew {
@@ -36,11 +37,10 @@ HeaderBar::HeaderBar(Workspace& workspace, const Actions& actions, QWidget* pare
   row->addWidget(name);
   row->addSpacing(110);
 
-  patient_ = makeLabel({}, "heading");
+  patient_ = new ElidedLabel{"heading"};
   patient_->setObjectName("patient_name");
-  details_ = makeLabel({}, "small");
+  details_ = new ElidedLabel{"small"};
   details_->setObjectName("patient_details");
-  details_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* text = new QVBoxLayout;
   text->setSpacing(0);
   text->addStretch();

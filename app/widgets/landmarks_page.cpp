@@ -73,11 +73,7 @@ void LandmarksPage::buildList(QWidget& side) {
   auto* column = new QVBoxLayout{&side};
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
-  search_ = new QLineEdit;
-  search_->setObjectName("landmark_search");
-  search_->setPlaceholderText(tr("Find a landmark"));
-  search_->addAction(icon("search", colour::kMuted), QLineEdit::LeadingPosition);
-  search_->setClearButtonEnabled(true);
+  search_ = makeSearchField("landmark_search", tr("Find a landmark"));
   progress_ = makeLabel({}, "small");
   progress_->setObjectName("landmark_progress");
   rms_ = makeLabel({}, "small");

@@ -77,6 +77,8 @@ void ModelView::buildTools(QHBoxLayout& tools, const QString& object_name) {
     button->setObjectName(object_name + "_" + name);
     button->setText(text);
     button->setProperty("words", true);
+    // The style sheet's least width of a button is that of an icon.
+    button->setStyleSheet(QString{"min-width: %1px;"}.arg(button->fontMetrics().horizontalAdvance(text)));
     button->setToolTip(tip);
     button->setAccessibleName(tip);
     button->setCheckable(true);

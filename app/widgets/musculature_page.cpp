@@ -49,8 +49,9 @@ std::vector<std::pair<QString, QString>> factsOf(const Model& model, const Muscu
   for (Eigen::Index i = 0; i < arms_m.size(); ++i) {
     const Coordinate& coordinate = model.skeleton.coordinates[std::size_t(i)];
     if (!coordinate.translational && coordinate.joint != 0 && std::abs(arms_m[i]) >= kSmallestArm_m)
-      facts.emplace_back(QObject::tr("Moment arm, %1").arg(readableName(coordinate.name).toLower()),
-                         figure(1000 * arms_m[i], 1) + " mm");
+      facts.emplace_back(
+          QObject::tr("Moment arm, %1").arg(readableName(coordinate.name).section(',', 0, 0).toLower()),
+          figure(1000 * arms_m[i], 1) + " mm");
   }
   return facts;
 }
@@ -61,11 +62,7 @@ MusculaturePage::MusculaturePage(Workspace& workspace)
     : StagePage{workspace, Stage::Musculature, tr("Muscles carried to this patient's bones.")} {
   auto* list = new QVBoxLayout;
   list->setSpacing(8);
-  search_ = new QLineEdit;
-  search_->setObjectName("muscle_search");
-  search_->setPlaceholderText(tr("Find a muscle or group"));
-  search_->addAction(icon("search", colour::kMuted), QLineEdit::LeadingPosition);
-  search_->setClearButtonEnabled(true);
+  search_ = makeSearchField("muscle_search", tr("Find a muscle or group"));
   count_ = makeLabel({}, "small");
   count_->setObjectName("muscle_count");
   table_ = makeTable("muscle_table", {tr("Muscle"), tr("Force N"), tr("Factor")});
@@ -94,7 +91,7 @@ MusculaturePage::MusculaturePage(Workspace& workspace)
   facts_->setSelectionMode(QAbstractItemView::NoSelection);
   facts_->setFrameShape(QFrame::NoFrame);
   facts_->setStyleSheet("border: none;");
-  facts_->setWordWrap(true);
+  wrapRows(*facts_);
   facts_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   facts_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
   card->content().addWidget(title_);
@@ -105,7 +102,7 @@ MusculaturePage::MusculaturePage(Workspace& workspace)
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
   row->addWidget(list_box, 5);
-  row->addWidget(model_view_, 4);
+  row->addWidget(model_view_, 7);
   row->addWidget(card);
   body().addLayout(row, 1);
 
@@ -188,7 +185,7 @@ void MusculaturePage::showMuscle() {
   const auto facts = factsOf(*model, *found, shownCase().skeleton->posture);
   facts_->setRowCount(int(facts.size()));
   for (int i = 0; i < int(facts.size()); ++i) {
-    setCell(*facts_, i, 0, facts[std::size_t(i)].first);
+    setCell(*facts_, i, 0, facts[std::size_t(i)].first)->setToolTip(facts[std::size_t(i)].first);
     setCell(*facts_, i, 1, facts[std::size_t(i)].second, kNumber);
   }
   facts_->resizeRowsToContents();

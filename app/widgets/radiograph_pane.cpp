@@ -22,7 +22,7 @@ std::pair<double, double> greyRange(const Radiograph& radiograph, double low, do
   const auto quantile = [&](double share) {
     std::size_t sum = 0;
     for (std::size_t grey = 0; grey < count.size(); ++grey)
-      if ((sum += count[grey]) >= std::size_t(share * double(total))) return double(grey);
+      if ((sum += count[grey]) > 0 && sum >= std::size_t(share * double(total))) return double(grey);
     return 65535.0;
   };
   return {quantile(low), quantile(high)};

@@ -191,6 +191,8 @@ void RadiographView::paintEvent(QPaintEvent*) {
   painter.drawImage(target, picture);
 
   painter.setRenderHint(QPainter::Antialiasing);
+  painter.save();
+  painter.setClipRect(target);  // nothing was seen beyond the film
   for (const auto& line : lines_) {
     QPolygonF polygon;
     for (const auto& p : line.points_px) polygon << toWidget(p);
@@ -199,6 +201,7 @@ void RadiographView::paintEvent(QPaintEvent*) {
     painter.setPen(pen);
     painter.drawPolyline(polygon);
   }
+  painter.restore();
   paintMarks(painter);
   paintScaleBar(painter);
 

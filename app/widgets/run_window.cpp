@@ -12,10 +12,13 @@
 #include "app/widgets/report_pages.h"
 #include "app/widgets/theme.h"
 #include "app/widgets/vtk_view.h"
+#include "core/error.h"
 
 namespace sinew {
 
 int runWindow(int argc, char** argv, const std::filesystem::path& resource_dir) {
+  if (argc > 1 && !std::filesystem::is_regular_file(std::filesystem::path{argv[1]} / "case.json"))
+    throw InputError{{argv[1], "case folder", "a folder with case.json", "none"}};
   QSurfaceFormat::setDefaultFormat(VtkView::defaultFormat());
   QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QApplication application{argc, argv};

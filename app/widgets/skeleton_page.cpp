@@ -13,6 +13,8 @@
 #include "app/widgets/model_view.h"
 #include "app/widgets/radiograph_pane.h"
 #include "app/widgets/theme.h"
+#include "clinical/report_tables.h"
+#include "clinical/supported_bones.h"
 #include "core/model/bone_contours.h"
 
 namespace sinew {
@@ -30,6 +32,8 @@ SkeletonPage::SkeletonPage(Workspace& workspace)
   table_ = makeTable("figure_table", {tr("Figure"), tr("Right"), tr("95 % interval"), tr("Left"), tr("95 % interval"),
                                       tr("Right − left"), tr("Unit")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(6, QHeaderView::ResizeToContents);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->verticalHeader()->setDefaultSectionSize(26);
   for (int column = 1; column <= 5; ++column)
@@ -58,8 +62,8 @@ void SkeletonPage::refreshOverlays(const Model* model) {
     std::vector<LineOverlay> lines;
     if (model && c.rig) {
       const View& geometry = c.rig->views[std::size_t(view)];
-      for (const auto& contour :
-           boneContours(*model->bones, segmentPoses(model->skeleton, c.skeleton->posture), geometry))
+      for (const auto& contour : boneContours(supportedBones(*model, c.sightings),
+                                              segmentPoses(model->skeleton, c.skeleton->posture), geometry))
         for (const auto& line : contour.lines) {
           LineOverlay overlay{{}, sideColour(contour.bone), 1.3, false};
           for (const auto& p : line) overlay.points_px.emplace_back(p.x(), p.y());
@@ -83,24 +87,24 @@ void SkeletonPage::refreshFigures() {
     auto [row, is_new] = rows.try_emplace(f.quantity, table_->rowCount());
     if (is_new) {
       table_->insertRow(row->second);
-      setCell(*table_, row->second, 0, readableName(f.quantity));
+      const FigureText text = workspace().norms().textOf(f.quantity);
+      setCell(*table_, row->second, 0, QString::fromStdString(headingOf(text)))
+          ->setToolTip(QString::fromStdString(text.definition));
       for (int column = 1; column <= 5; ++column) setCell(*table_, row->second, column, {}, kNumber);
       setCell(*table_, row->second, 6, f.unit == "deg" ? "°" : QString::fromStdString(f.unit));
     }
     const int column = f.side == "l" ? 3 : 1;
     pairs[f.quantity][f.side == "l" ? 1 : 0] = &f;
     const int decimals = 1;
-    auto* value = setCell(*table_, row->second, column, figure(f.value, decimals), kNumber);
-    auto* interval =
-        setCell(*table_, row->second, column + 1,
-                f.determined ? tr("%1 to %2").arg(figure(f.lower95, decimals), figure(f.upper95, decimals))
-                             : tr("undetermined"),
-                kNumber);
-    if (!f.determined) {
-      for (auto* item : {value, interval}) {
-        item->setForeground(colour::kMuted);
-        item->setToolTip(tr("The images do not say: this is the population's value."));
-      }
+    auto* value =
+        setCell(*table_, row->second, column, f.determined ? figure(f.value, decimals) : tr(kUndetermined), kNumber);
+    if (f.determined) {
+      setCell(*table_, row->second, column + 1,
+              tr("%1 to %2").arg(figure(f.lower95, decimals), figure(f.upper95, decimals)), kNumber);
+    } else {
+      value->setForeground(colour::kMuted);
+      value->setToolTip(
+          tr("The images do not say. The model takes the population's value: %1").arg(figure(f.value, decimals)));
     }
   }
   for (const auto& [quantity, pair] : pairs)

@@ -7,6 +7,7 @@
 
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
+#include "app/widgets/controls.h"
 #include "app/widgets/theme.h"
 
 namespace sinew {
@@ -33,7 +34,7 @@ std::pair<const char*, QColor> signOf(StageState state) {
 StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, workspace_{workspace} {
   setObjectName("stage_rail");
   setAttribute(Qt::WA_StyledBackground);
-  setFixedWidth(236);
+  setFixedWidth(244);
   auto* column = new QVBoxLayout{this};
   column->setContentsMargins(10, 14, 10, 14);
   column->setSpacing(4);
@@ -72,8 +73,7 @@ StageRail::Entry StageRail::makeEntry(Stage stage) {
   auto* picture = new QLabel;
   picture->setPixmap(icon(name, QColor{0xc9, 0xd6, 0xe0}).pixmap(22, 22));
   entry.title = makeLabel(QString::fromStdString(titleOf(stage)), "heading");
-  entry.line = makeLabel({}, "small");
-  entry.line->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  entry.line = new ElidedLabel{"small"};
   entry.sign = new QLabel;
   entry.sign->setFixedSize(20, 20);
   auto* text = new QVBoxLayout;
@@ -84,7 +84,7 @@ StageRail::Entry StageRail::makeEntry(Stage stage) {
   text->addStretch();
   auto* row = new QHBoxLayout{entry.button};
   row->setContentsMargins(12, 0, 10, 0);
-  row->setSpacing(12);
+  row->setSpacing(9);
   row->addWidget(picture);
   row->addLayout(text, 1);
   row->addWidget(entry.sign);
@@ -100,11 +100,13 @@ StageRail::Entry StageRail::makeEntry(Stage stage) {
 
 void StageRail::refresh() {
   const bool open = workspace_.document().isOpen();
+  refreshSelection();
   bool anything_to_run = false;
   for (auto& [stage, entry] : entries_) {
     entry.button->setEnabled(open);
     if (!open) {
       entry.line->clear();
+      entry.line->hide();  // the title stands in the middle
       entry.sign->clear();
       continue;
     }
@@ -112,7 +114,8 @@ void StageRail::refresh() {
     anything_to_run |= state != StageState::Done;
     const QString line =
         state == StageState::Stale ? tr("Out of date") : stageLine(workspace_.document().current(), stage);
-    entry.line->setText(entry.line->fontMetrics().elidedText(line, Qt::ElideRight, 134));
+    entry.line->setText(line);
+    entry.line->show();
     const auto [sign, color] = signOf(state);
     entry.sign->setPixmap(*sign ? icon(sign, color).pixmap(18, 18) : QPixmap{});
     const QString title = QString::fromStdString(titleOf(stage));
@@ -124,7 +127,8 @@ void StageRail::refresh() {
 }
 
 void StageRail::refreshSelection() {
-  for (auto& [stage, entry] : entries_) entry.button->setChecked(stage == workspace_.view().stage());
+  for (auto& [stage, entry] : entries_)
+    entry.button->setChecked(workspace_.document().isOpen() && stage == workspace_.view().stage());
 }
 
 }  // namespace sinew

@@ -23,6 +23,8 @@
 namespace sinew {
 namespace {
 
+const QColor kDisabled{0x9a, 0xa6, 0xb1};
+
 /// Draws an SVG whose lines are "currentColor"; paler while disabled.
 class LineIconEngine : public QIconEngine {
  public:
@@ -30,7 +32,7 @@ class LineIconEngine : public QIconEngine {
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
     QColor color = color_;
-    if (mode == QIcon::Disabled) color.setAlphaF(0.32f);
+    if (mode == QIcon::Disabled) color = kDisabled;
     QByteArray text = svg_;
     text.replace("currentColor", color.name(QColor::HexRgb).toLatin1());
     painter->save();
@@ -61,7 +63,7 @@ QString withColours(QString sheet) {
                                                               {"@view_strip", colour::kViewStrip},
                                                               {"@background", colour::kBackground},
                                                               {"@selection", colour::kSelection},
-                                                              {"@disabled", QColor{0x9a, 0xa6, 0xb1}},
+                                                              {"@disabled", kDisabled},
                                                               {"@primary", colour::kPrimary},
                                                               {"@pressed", QColor{0xe4, 0xe9, 0xee}},
                                                               {"@surface", colour::kSurface},
@@ -85,8 +87,8 @@ void installTheme(QApplication& application, const std::filesystem::path& resour
   QDir::setSearchPaths("icons", {QString::fromStdString((resource_dir / "icons").string())});
   application.setStyle(QStyleFactory::create("Fusion"));
   QFont font;
-  font.setFamilies({"Inter", "Noto Sans", "Open Sans", "NanumBarunGothic", "DejaVu Sans", "NanumGothic"});
-  font.setPixelSize(13);
+  font.setFamilies({"DejaVu Sans", "NanumBarunGothic", "NanumGothic"});
+  font.setPixelSize(12);
   application.setFont(font);
   QPalette palette;
   palette.setColor(QPalette::Window, colour::kBackground);

@@ -93,5 +93,12 @@ TEST(CliUsage, UsageErrorsObeyJsonToo) {
   EXPECT_THAT(document["error"]["found"].get<std::string>(), HasSubstr("RIG is required"));
 }
 
+TEST(CliUsage, TheWindowRefusesAFolderWithoutACaseBeforeItNeedsADisplay) {
+  const ProgramResult result = sinewProgram({"window", "/nowhere/case"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("/nowhere/case"), HasSubstr("case.json")));
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1);
+}
+
 }  // namespace
 }  // namespace sinew
