@@ -204,8 +204,9 @@ ExamComparison compare(const Model& model, const ExamProtocol& protocol, const E
 void warnIfUnmet(const ExamTest& test, const ExamComparison& line, Warnings& warnings) {
   if (!line.measured_deg || !(std::abs(line.residual_deg) > test.measurement_sd_deg)) return;
   char text[96];
-  std::snprintf(text, sizeof text, " %c: measured %.0f deg, the fitted model gives %.0f deg%s", line.side,
-                *line.measured_deg, line.simulated_after_deg, line.stopped_by_joint ? " (the joint's own stop)" : "");
+  std::snprintf(text, sizeof text, " (%s): measured %.0f deg, the fitted model gives %.0f deg%s",
+                line.side == 'r' ? "right" : "left", *line.measured_deg, line.simulated_after_deg,
+                line.stopped_by_joint ? " (the joint's own stop)" : "");
   warnings.push_back({"exam_not_met", test.title + text + "; muscle lengths alone cannot explain it"});
 }
 

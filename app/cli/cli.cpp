@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <filesystem>
 
 #include "app/cli/commands.h"
 #include "app/cli/resource_folder.h"
@@ -127,6 +128,10 @@ ExitStatus parseAndRun(Session& session, int argc, const char* const* argv) {
     return commands.chosen();
   } catch (const InputError& error) {
     session.failure(error.detail(), error.what());
+    return ExitStatus::Unusable;
+  } catch (const std::filesystem::filesystem_error& error) {  // a disk that is full or not ours is no fault of ours
+    const InputError refused{{error.path1().string(), "", "a folder that can be written", error.code().message()}};
+    session.failure(refused.detail(), refused.what());
     return ExitStatus::Unusable;
   }
 }

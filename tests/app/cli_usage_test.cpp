@@ -85,6 +85,12 @@ TEST(CliUsage, ErrorsAreOneLineOnStderrOrOneDocumentOnStdout) {
   for (const char* member : {"field", "expected", "found", "message"}) EXPECT_TRUE(error.contains(member)) << member;
 }
 
+TEST(CliUsage, AFolderThatCannotBeMadeIsNoFaultOfOurs) {
+  const ProgramResult result = sinewProgram({"demo", "--out", "/proc/sinew", "--binning", "4", "--json"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(documentOf(result)["error"]["expected"], "a folder that can be written");
+}
+
 TEST(CliUsage, UsageErrorsObeyJsonToo) {
   const ProgramResult result = sinewProgram({"--json", "rig", "info"});
   EXPECT_EQ(result.status, 2);
