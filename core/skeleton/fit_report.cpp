@@ -112,6 +112,12 @@ void describeResiduals(const SightingList& sightings, std::span<const View> view
   for (std::size_t i = 0; i < fit.residuals.size(); ++i)
     if (fit.residuals[i].sigmas > kDoubtful_sigma || sightings.items[i].left_out) worst.push_back(i);
   std::ranges::sort(worst, [&](auto a, auto b) { return fit.residuals[a].sigmas > fit.residuals[b].sigmas; });
+  // Single slips stay few; so many disagree when the picks as a whole are of another body, and that is said first.
+  if (4 * worst.size() > fit.residuals.size())
+    fit.warnings.push_back(
+        {"picks_disagree", std::to_string(worst.size()) + " of " + std::to_string(fit.residuals.size()) +
+                               " picks fit no body: are left and right exchanged, an image mirrored, or the views "
+                               "not of one posture? The figures are not to be used"});
   for (const std::size_t i : worst) {
     const LandmarkResidual& r = fit.residuals[i];
     fit.warnings.push_back({"outlier", r.landmark + " in view " + std::to_string(r.view + 1) + " lies " +

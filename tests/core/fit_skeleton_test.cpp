@@ -149,6 +149,20 @@ TEST_F(FitSkeleton, NoisyPicksGiveHonestIntervals) {
   EXPECT_NEAR(result.rms_px, std::sqrt(2.0) * 5.9, 1.2);
 }
 
+TEST_F(FitSkeleton, LeftForRightIsSaidFirst) {
+  draw(7);
+  auto sightings = seen(1.0);
+  for (auto& s : sightings) {
+    if (s.landmark.ends_with("_r"))
+      s.landmark.back() = 'l';
+    else if (s.landmark.ends_with("_l"))
+      s.landmark.back() = 'r';
+  }
+  const SkeletonFit result = fit(sightings);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings.front().code, "picks_disagree");
+}
+
 TEST_F(FitSkeleton, AGrossErrorIsNamedAndBarelyMovesTheResult) {
   draw(7);
   auto sightings = seen(1.0);
