@@ -36,6 +36,15 @@ class Descriptor {
   throw InputError{file.string() + ": " + what + ": " + std::strerror(errno)};
 }
 
+/// Who may read a file: as before if it exists, else as the user's umask says; a case holds a patient's name.
+mode_t modeFor(const std::filesystem::path& file) {
+  struct stat present {};
+  if (::stat(file.c_str(), &present) == 0) return present.st_mode & 0777;
+  const mode_t mask = ::umask(077);  // it can only be read by setting it; for that moment the strictest
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
 void writeAll(int fd, std::string_view content, const std::filesystem::path& file) {
   while (!content.empty()) {
     const auto written = ::write(fd, content.data(), content.size());
@@ -70,7 +79,7 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view con
   if (out.get() < 0) throwErrno(file, "cannot be created");
   try {
     writeAll(out.get(), content, file);
-    ::fchmod(out.get(), 0644);
+    ::fchmod(out.get(), modeFor(file));
     if (::fsync(out.get()) != 0) throwErrno(file, "cannot be flushed");
     if (::rename(temporary.c_str(), file.c_str()) != 0) throwErrno(file, "cannot be replaced");
   } catch (...) {

@@ -1,6 +1,7 @@
 #include "core/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
@@ -18,6 +19,20 @@ TEST(WriteFileAtomically, ReplacesAndLeavesNoTemporaryFile) {
   writeFileAtomically(folder / "a.txt", "second");
   EXPECT_EQ(readFile(folder / "a.txt"), "second");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder.path()}, {}), 1);
+}
+
+TEST(WriteFileAtomically, IsReadableForWhomTheUserAllowsIt) {
+  using std::filesystem::perms;
+  const test::TemporaryFolder folder;
+  const auto modeOf = [&](const char* name) { return std::filesystem::status(folder / name).permissions(); };
+  const mode_t before = ::umask(077);
+  writeFileAtomically(folder / "private.txt", "a");
+  ::umask(022);
+  writeFileAtomically(folder / "public.txt", "a");
+  writeFileAtomically(folder / "private.txt", "b");
+  ::umask(before);
+  EXPECT_EQ(modeOf("private.txt"), perms{0600});
+  EXPECT_EQ(modeOf("public.txt"), perms{0644});
 }
 
 TEST(WriteFileAtomically, KeepsTheOldFileWhenItCannotWrite) {
