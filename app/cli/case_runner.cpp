@@ -66,11 +66,21 @@ bool runOne(RunReport& report, Case& c, Stage stage, const PipelineContext& cont
   return record.outcome == Outcome::Converged;
 }
 
+/// A finished stage says nothing about its inputs any more: images that went missing or changed since are named
+/// first.
+void requireIntactInputs(const Case& c, const std::filesystem::path& folder) {
+  for (const auto& image : c.images) checkedFile(image.file, folder);
+  if (!c.phantom) return;
+  for (const auto& image : c.phantom->images) checkedFile(image, folder);
+  checkedFile(c.phantom->beads, folder);
+}
+
 }  // namespace
 
 RunReport runCase(Case& c, const std::filesystem::path& folder, const RunRequest& request, Session& session) {
   const PipelineContext context = contextFor(session, folder);
   RunReport report;
+  requireIntactInputs(c, folder);
   for (const Stage stage : kStages) {
     if (request.to && stage > *request.to) break;
     const StageState state = stateOf(c, stage);

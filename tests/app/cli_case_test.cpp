@@ -111,6 +111,11 @@ TEST(CliCase, DamageIsReported) {
   EXPECT_EQ(status.status, 0);
   EXPECT_THAT(status.out, HasSubstr("damaged: results/model.json"));
   const std::string text = readFile(copy + "/case.json");
+  std::filesystem::remove(copy + "/images/view2.dcm");
+  const ProgramResult without_image = sinewProgram({"run", copy});  // although every stage is done
+  EXPECT_EQ(without_image.status, 2);
+  EXPECT_THAT(without_image.err, HasSubstr("view2.dcm: expected a file of the case"));
+  EXPECT_EQ(readFile(copy + "/case.json"), text);
   writeFileAtomically(copy + "/case.json", text.substr(0, text.size() / 2));
   const ProgramResult broken = sinewProgram({"run", copy});
   EXPECT_EQ(broken.status, 2);
