@@ -66,21 +66,20 @@ bool runOne(RunReport& report, Case& c, Stage stage, const PipelineContext& cont
   return record.outcome == Outcome::Converged;
 }
 
-/// A finished stage says nothing about its inputs any more: images that went missing or changed since are named
-/// first.
-void requireIntactInputs(const Case& c, const std::filesystem::path& folder) {
-  for (const auto& image : c.images) checkedFile(image.file, folder);
-  if (!c.phantom) return;
-  for (const auto& image : c.phantom->images) checkedFile(image, folder);
-  checkedFile(c.phantom->beads, folder);
-}
-
 }  // namespace
+
+std::vector<FileReference> enteredFiles(const Case& c) {
+  std::vector<FileReference> files;
+  for (const auto& image : c.images) files.push_back(image.file);
+  if (c.phantom) files.insert(files.end(), {c.phantom->images[0], c.phantom->images[1], c.phantom->beads});
+  return files;
+}
 
 RunReport runCase(Case& c, const std::filesystem::path& folder, const RunRequest& request, Session& session) {
   const PipelineContext context = contextFor(session, folder);
   RunReport report;
-  requireIntactInputs(c, folder);
+  // A finished stage says nothing about its inputs any more: files that went missing or changed are named first.
+  for (const auto& file : enteredFiles(c)) checkedFile(file, folder);
   for (const Stage stage : kStages) {
     if (request.to && stage > *request.to) break;
     const StageState state = stateOf(c, stage);

@@ -24,6 +24,9 @@ struct RunReport {
   std::optional<InputError> refused;  ///< a stage could not use its input
 };
 
+/// Files of the case that a person supplied: images, phantom images and its beads.
+std::vector<FileReference> enteredFiles(const Case& c);
+
 /// Runs the stages of a case that are not done, one line a stage on stdout, and saves the case after each, so that an
 /// interrupted run loses nothing. Ends at the first stage that fails, is cancelled, or lacks its input: that is an
 /// error only if the stage was asked for by `to`.

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/case_runner.h"
 #include "app/cli/commands.h"
 #include "clinical/case_io.h"
 #include "clinical/pipeline.h"
@@ -10,9 +11,7 @@ namespace {
 
 /// Every file that the case refers to.
 std::vector<FileReference> filesOf(const Case& c) {
-  std::vector<FileReference> files;
-  for (const auto& image : c.images) files.push_back(image.file);
-  if (c.phantom) files.insert(files.end(), {c.phantom->images[0], c.phantom->images[1], c.phantom->beads});
+  std::vector<FileReference> files = enteredFiles(c);
   if (c.model) files.push_back(*c.model);
   if (c.report) files.push_back(*c.report);
   return files;
