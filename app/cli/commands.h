@@ -28,6 +28,7 @@ void addTriangulateCommand(Commands& commands);
 void addFitCommand(Commands& commands);
 void addExamCommand(Commands& commands);
 void addModelCommands(Commands& commands);
+void addClearanceCommand(CLI::App& model, Commands& commands);  // of `sinew model`
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 

@@ -94,6 +94,7 @@ void addModelCommands(Commands& commands) {
   model.require_subcommand(1);
   addInfo(model, commands);
   addValidate(model, commands);
+  addClearanceCommand(model, commands);
 }
 
 }  // namespace sinew

@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+
+#include "core/geometry/triangle_mesh.h"
+
+namespace sinew {
+
+/// Exact signed distance to a closed triangle mesh. Pieces that are not connected count as a union: inside any of
+/// them is inside. Sign by angle-weighted pseudonormals (Baerentzen & Aanaes 2005), search in a tree of boxes.
+class MeshDistance {
+ public:
+  struct Nearest {
+    double distance_m = std::numeric_limits<double>::infinity();  ///< negative inside
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();              ///< of the surface
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();             ///< outwards there, unit
+  };
+
+  /// @param mesh closed and facing outwards (isWatertight()); a bug of the caller otherwise if it has no triangle.
+  explicit MeshDistance(const TriangleMesh& mesh);
+  ~MeshDistance();
+  MeshDistance(MeshDistance&&) noexcept;
+  MeshDistance& operator=(MeshDistance&&) noexcept;
+
+  /// Nearest point of the surface of the piece that `p` is deepest in or closest to.
+  Nearest nearest(const Eigen::Vector3d& p) const;
+  /// 0 outside, else how deep inside [m]; quick for points outside the mesh's box.
+  double depth_m(const Eigen::Vector3d& p) const;
+
+ private:
+  struct Piece;
+  std::vector<Piece> pieces_, cavities_;
+};
+
+}  // namespace sinew

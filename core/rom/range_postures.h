@@ -1,0 +1,13 @@
+#pragma once
+#include <vector>
+
+#include "core/skeleton/kinematics.h"
+
+namespace sinew {
+
+/// Postures over the whole normal range of motion: every coordinate of the joints alone from its lower to its upper
+/// normal limit in steps of at most `step_deg`, the zero posture first, then `random_count` draws in which all
+/// coordinates move at once inside the ellipsoids of their limits (normalPostures).
+std::vector<Posture> rangePostures(const Skeleton& skeleton, double step_deg = 10, int random_count = 200);
+
+}  // namespace sinew
