@@ -30,5 +30,6 @@ void addExamCommand(Commands& commands);
 void addModelCommands(Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
+void addRomCommand(Commands& commands);
 
 }  // namespace sinew
