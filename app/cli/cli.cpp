@@ -91,6 +91,7 @@ void addCommands(Commands& commands) {
   addModelCommands(commands);
   addEvaluateCommand(commands);
   addCurveCommand(commands);
+  addRomCommand(commands);
   // Listed in the help; app/main.cpp opens the window.
   auto& window =
       addCommand(commands.app, "window", "open the window, with a case if one is named", "sinew window mycase");

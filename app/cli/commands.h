@@ -31,5 +31,6 @@ void addModelCommands(Commands& commands);
 void addClearanceCommand(CLI::App& model, Commands& commands);  // of `sinew model`
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
+void addRomCommand(Commands& commands);
 
 }  // namespace sinew

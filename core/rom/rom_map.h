@@ -33,6 +33,7 @@ struct RomMap {
   }
   static double twist_rad(int twist);
   Eigen::Vector3d direction_J(int polar, int azimuth) const;  ///< of the shaft, unit
+  Eigen::Matrix3d swing_J(int polar, int azimuth) const;      ///< shortest turn that takes the shaft there
   Eigen::Matrix3d R_JB(int twist, int polar, int azimuth) const;
 
   int validCount() const;

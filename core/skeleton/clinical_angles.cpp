@@ -52,13 +52,16 @@ Eigen::Matrix3d sequenceRotation(const Skeleton& skeleton, const Joint& joint, c
 
 }  // namespace
 
+Eigen::Vector3d clinicalAngles(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB) {
+  return sequenceAngles(R_JB, axis(skeleton, joint, 0), axis(skeleton, joint, 1), axis(skeleton, joint, 2));
+}
+
 Eigen::VectorXd clinicalFromPosture(const Skeleton& skeleton, const Posture& q) {
   Eigen::VectorXd clinical = q;
   for (const auto& joint : skeleton.joints) {
     if (joint.type == JointType::Revolute) continue;
     const int r = firstRotation(joint);
-    clinical.segment<3>(r) = sequenceAngles(rotationFromVector<double>(q.segment<3>(r)), axis(skeleton, joint, 0),
-                                            axis(skeleton, joint, 1), axis(skeleton, joint, 2));
+    clinical.segment<3>(r) = clinicalAngles(skeleton, joint, rotationFromVector<double>(q.segment<3>(r)));
   }
   return clinical;
 }

@@ -12,6 +12,9 @@ namespace sinew {
 Eigen::VectorXd clinicalFromPosture(const Skeleton& skeleton, const Posture& q);
 Posture postureFromClinical(const Skeleton& skeleton, const Eigen::VectorXd& clinical);
 
+/// The clinical angles of one ball joint (or the turns of the root) whose child is turned by R_JB.
+Eigen::Vector3d clinicalAngles(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB);
+
 /// Posture from names and degrees (translations in metres); what is not named is 0.
 /// @throws InputError for an unknown name (with the nearest) or a value that is not finite.
 Posture postureFromDegrees(const Skeleton& skeleton, const std::map<std::string, double>& coordinates_deg);

@@ -1,0 +1,147 @@
+#include "core/kernel/compiled_model.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/kernel/compiled_arrays_internal.h"
+#include "core/kernel/unit_nodes_internal.h"
+#include "core/muscle/hill.h"
+
+namespace sinew {
+namespace {
+
+template <class Target, class Source>
+void copyTo(Target* target, const Source& source) {
+  for (Eigen::Index r = 0, i = 0; r < source.rows(); ++r)
+    for (Eigen::Index c = 0; c < source.cols(); ++c) target[i++] = static_cast<Target>(source(r, c));
+}
+
+template <class Real>
+JointView<Real> jointView(const Skeleton& skeleton, const Joint& joint) {
+  JointView<Real> view{};
+  const bool free = joint.type == JointType::Free;
+  view.kind = joint.type == JointType::Revolute ? JointView<Real>::Revolute
+              : free                            ? JointView<Real>::Free
+                                                : JointView<Real>::Ball;
+  view.parent = joint.parent;
+  view.child = joint.child;
+  view.coordinate = joint.first_coordinate + (free ? 3 : 0);
+  view.turned = joint.X_PJ.linear() != Eigen::Matrix3d::Identity();
+  copyTo(view.R_PJ, joint.X_PJ.linear());
+  copyTo(view.p_PJ, joint.X_PJ.translation());
+  copyTo(view.axis, skeleton.coordinates[view.coordinate].axis);
+  return view;
+}
+
+template <class Real>
+PatellaView<Real> patellaView(const PatellaDriver& d) {
+  const auto samples = d.knee_flexion_rad.size();
+  require(samples >= 2 && samples <= PatellaView<Real>::kMaxSamples, "a patella's curve has 2 to 32 samples");
+  PatellaView<Real> view{};
+  view.segment = d.segment;
+  view.femur = d.femur;
+  view.coordinate = d.knee_coordinate;
+  copyTo(view.R_FK, d.R_FK);
+  copyTo(view.p_FK, d.p_FK);
+  view.radius_m = Real(d.radius_m);
+  view.cos_start = Real(std::cos(d.start_rad));
+  view.sin_start = Real(std::sin(d.start_rad));
+  view.samples = static_cast<int>(samples) - 1;
+  for (std::size_t i = 0; i < samples; ++i) view.rate[i] = Real(d.quadriceps_arm_m[i] / d.reference_radius_m);
+  for (std::size_t i = 0; i + 1 < samples; ++i) {
+    const double span = d.knee_flexion_rad[i + 1] - d.knee_flexion_rad[i];
+    view.knot[i] = Real(d.knee_flexion_rad[i]);
+    view.span[i] = Real(span);
+    view.slope[i] = Real((d.quadriceps_arm_m[i + 1] - d.quadriceps_arm_m[i]) / (span * d.reference_radius_m));
+  }
+  return view;
+}
+
+template <class Real>
+RadiusView<Real> radiusView(const Skeleton& skeleton, const RadiusDriver& d) {
+  RadiusView<Real> view{};
+  view.segment = d.segment;
+  view.ulna = d.ulna;
+  view.coordinate = skeleton.joints[d.wrist_joint].first_coordinate;
+  copyTo(view.p_UR, d.p_UR);
+  copyTo(view.axis, d.axis_U);
+  return view;
+}
+
+template <class Real>
+RealArrays<Real> realArrays(const Skeleton& skeleton, const Musculature& musculature) {
+  RealArrays<Real> arrays;
+  for (const Joint& joint : skeleton.joints) arrays.joints.push_back(jointView<Real>(skeleton, joint));
+  for (const auto& d : skeleton.patellae) arrays.patellae.push_back(patellaView<Real>(d));
+  for (const auto& d : skeleton.radii) arrays.radii.push_back(radiusView<Real>(skeleton, d));
+  for (const auto& unit : musculature.units)
+    for (const auto& point : unit.path)
+      for (const Anchor& a : point.anchors) {
+        const Eigen::Vector3d wx = a.weight * a.p_B;
+        arrays.terms.push_back({Real(wx.x()), Real(wx.y()), Real(wx.z()), Real(a.weight)});
+      }
+  return arrays;
+}
+
+void addUnit(const SegmentTree& tree, const MusculotendonUnit& unit, CompiledArrays& arrays) {
+  const UnitNodes nodes = nodesOf(tree, unit);
+  for (const NodeView& node : nodes.nodes) arrays.nodes.push_back(node);
+  int terms = 0;
+  for (const auto& point : unit.path) {
+    const bool single = point.anchors.size() == 1;
+    require(!single || point.anchors.front().weight == 1, "the weights of a path point add up to 1");
+    for (const Anchor& a : point.anchors) {
+      arrays.term_offset.push_back(12 * a.segment);
+      arrays.term_slot.push_back(nodes.slotOf(a.segment));
+      ++terms;
+    }
+    arrays.point_terms.push_back(static_cast<int>(arrays.term_offset.size()));
+  }
+  arrays.unit_points.push_back(static_cast<int>(arrays.point_terms.size()) - 1);
+  arrays.unit_nodes.push_back(static_cast<int>(arrays.nodes.size()));
+  arrays.gradient_coordinate.insert(arrays.gradient_coordinate.end(), nodes.coordinates.begin(),
+                                    nodes.coordinates.end());
+  arrays.gradient_start.push_back(static_cast<int>(arrays.gradient_coordinate.size()));
+  arrays.longest_m.push_back(longestLength_m(unit));
+  arrays.max_terms = std::max(arrays.max_terms, terms);
+  arrays.max_nodes = std::max(arrays.max_nodes, static_cast<int>(nodes.nodes.size()));
+}
+
+}  // namespace
+
+CompiledModel::CompiledModel(const Skeleton& skeleton, const Musculature& musculature, Isa isa) : isa_{isa} {
+  auto arrays = std::make_shared<CompiledArrays>();
+  arrays->segment_count = static_cast<int>(skeleton.segments.size());
+  arrays->coordinate_count = skeleton.coordinateCount();
+  arrays->doubles = realArrays<double>(skeleton, musculature);
+  arrays->floats = realArrays<float>(skeleton, musculature);
+  arrays->unit_points = arrays->point_terms = arrays->unit_nodes = arrays->gradient_start = {0};
+  const SegmentTree tree = segmentTree(skeleton);
+  for (const auto& unit : musculature.units) addUnit(tree, unit, *arrays);
+  // A node's entry is kept relative to its unit until here.
+  for (std::size_t u = 0; u < musculature.units.size(); ++u)
+    for (int n = arrays->unit_nodes[u]; n < arrays->unit_nodes[u + 1]; ++n)
+      arrays->nodes[n].entry += arrays->gradient_start[u];
+  arrays_ = std::move(arrays);
+}
+
+int CompiledModel::unitCount() const {
+  return static_cast<int>(arrays_->longest_m.size());
+}
+int CompiledModel::segmentCount() const {
+  return arrays_->segment_count;
+}
+int CompiledModel::coordinateCount() const {
+  return arrays_->coordinate_count;
+}
+std::span<const double> CompiledModel::longest_m() const {
+  return arrays_->longest_m;
+}
+std::span<const int> CompiledModel::gradientStart() const {
+  return arrays_->gradient_start;
+}
+std::span<const int> CompiledModel::gradientCoordinate() const {
+  return arrays_->gradient_coordinate;
+}
+
+}  // namespace sinew
