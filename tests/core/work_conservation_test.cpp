@@ -1,6 +1,7 @@
 // Forces of the units and changes of their lengths are two sides of one thing: work.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
 #include "core/muscle/hill.h"
@@ -81,13 +82,16 @@ TEST_F(WorkConservation, ClosedLoopsOfPosturesCostNothing) {
   for (const double activation : {0.0, 0.0, 0.3}) {
     const Eigen::VectorXd from = 0.6 * test::randomClinical(skeleton_, random);
     const Posture centre = postureFromClinical(skeleton_, from);
-    const Eigen::VectorXd a = 0.3 * Eigen::VectorXd::NullaryExpr(50, [&] { return std::uniform_real_distribution{-1.0, 1.0}(random); });
-    const Eigen::VectorXd b = 0.3 * Eigen::VectorXd::NullaryExpr(50, [&] { return std::uniform_real_distribution{-1.0, 1.0}(random); });
+    const auto direction = [&] {
+      return Eigen::VectorXd{Eigen::VectorXd::NullaryExpr(
+          centre.size(), [&] { return std::uniform_real_distribution{-0.3, 0.3}(random); })};
+    };
+    const Eigen::VectorXd a = direction(), b = direction(), c = direction();
     double work_J = 0, moved_J = 0;
     for (int i = 0; i < kSteps; ++i) {
       const double t = 2 * std::numbers::pi * i / kSteps, dt = 2 * std::numbers::pi / kSteps;
-      const Posture q = centre + a * std::sin(t) + b * std::cos(2 * t);
-      const Eigen::VectorXd dq = (a * std::cos(t) - 2 * b * std::sin(2 * t)) * dt;
+      const Posture q = centre + a * std::cos(t) + b * std::sin(t) + c * std::cos(2 * t);
+      const Eigen::VectorXd dq = (-a * std::sin(t) + b * std::cos(t) - 2 * c * std::sin(2 * t)) * dt;
       const Kinematics k = kinematics(skeleton_, q);
       for (const auto& unit : musculature_.units) {
         const double tension_N = equilibrium(unit, pathLength(unit, k.X_WB), activation).force_N;
