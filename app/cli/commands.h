@@ -28,6 +28,8 @@ void addTriangulateCommand(Commands& commands);
 void addFitCommand(Commands& commands);
 void addExamCommand(Commands& commands);
 void addModelCommands(Commands& commands);
+void addAuditCommand(CLI::App& parent, Commands& commands);       // model audit
+void addMomentArmsCommand(CLI::App& parent, Commands& commands);  // model moment-arms
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 

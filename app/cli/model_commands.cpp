@@ -59,7 +59,8 @@ void addInfo(CLI::App& parent, Commands& commands) {
 
 /// Odd, but no error: a finding that leaves the model usable.
 bool isDoubt(const Warning& finding) {
-  return finding.code == "muscle_standing_fiber" || finding.code == "muscle_overstretched";
+  return finding.code == "muscle_standing_fiber" || finding.code == "muscle_overstretched" ||
+         finding.code == "muscle_sides_differ";
 }
 
 void addValidate(CLI::App& parent, Commands& commands) {
@@ -94,6 +95,8 @@ void addModelCommands(Commands& commands) {
   model.require_subcommand(1);
   addInfo(model, commands);
   addValidate(model, commands);
+  addAuditCommand(model, commands);
+  addMomentArmsCommand(model, commands);
 }
 
 }  // namespace sinew

@@ -9,8 +9,9 @@ namespace sinew {
 
 // Can activations turn every coordinate both ways? At a posture the units load the clinical coordinates with
 //   tau = R a,   R_kj = moment arm of unit j about coordinate k x the force that full activation adds to unit j,
-// a >= 0, because a muscle only pulls. The body is controllable there if every direction +-e_k is met: then the columns
-// of R span the space positively. The free root is left out: inner forces cannot move it, only outer ones can.
+// a >= 0, because a muscle only pulls. The body is controllable there if every direction +-e_k is met: then the
+// columns of R span the space positively. The free root is left out: inner forces cannot move it, only outer ones
+// can.
 
 /// One coordinate turned one way at one posture.
 struct DirectionOfControl {

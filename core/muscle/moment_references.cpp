@@ -29,9 +29,7 @@ class Table {
     }
   }
   std::size_t rowCount() const { return table_.rowCount(); }
-  std::string text(std::size_t row, const std::string& column) const {
-    return table_.text(row, columns_.at(column));
-  }
+  std::string text(std::size_t row, const std::string& column) const { return table_.text(row, columns_.at(column)); }
   double number(std::size_t row, const std::string& column) const { return table_.number(row, columns_.at(column)); }
   std::string where(std::size_t row) const { return table_.where(row); }
   [[noreturn]] void fail(std::size_t row, const std::string& column, const std::string& expected) const {

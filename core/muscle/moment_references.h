@@ -20,7 +20,7 @@ namespace sinew {
 struct MomentArmReference {
   std::string where;  ///< "moment_arms.csv: line 12"
   int unit = -1, coordinate = -1;
-  std::map<std::string, double> posture_deg;  ///< the coordinate's own angle included
+  std::map<std::string, double> posture_deg;        ///< the coordinate's own angle included
   double reference_cm = 0, min_cm = 0, max_cm = 0;  ///< positive = increases the coordinate
 };
 
@@ -58,9 +58,9 @@ std::vector<FunctionReference> loadFunctionReferences(const std::filesystem::pat
                                                       const Musculature& musculature);
 
 struct FunctionVerdict {
-  double arm_cm = 0;           ///< in the test posture
-  bool right = false;          ///< sign in the test posture
-  double share_of_range = 0;   ///< of 41 angles from min to max: with the right sign
+  double arm_cm = 0;          ///< in the test posture
+  bool right = false;         ///< sign in the test posture
+  double share_of_range = 0;  ///< of 41 angles from min to max: with the right sign
 };
 std::vector<FunctionVerdict> judgeFunctions(const Skeleton& skeleton, const Musculature& musculature,
                                             const std::vector<FunctionReference>& references);

@@ -100,7 +100,8 @@ class ActiveSet {
       }
     }
     if (released_ >= 0 && first == released_ && share == 0)
-      held_[static_cast<std::size_t>(first)] = true;  // sent straight back, by rounding: waits until another has moved
+      held_[static_cast<std::size_t>(first)] =
+          true;  // sent straight back, by rounding: waits until another has moved
     else if (released_ >= 0 && share > 0)
       held_.assign(held_.size(), false);
     released_ = -1;
@@ -108,7 +109,7 @@ class ActiveSet {
       const Index i = free[k];
       const double goal = target[static_cast<Index>(k)];
       x_[i] += share * (goal - x_[i]);
-      const bool down = goal < lower_[i], up = goal > upper_[i];
+      const bool down = goal<lower_[i], up = goal> upper_[i];
       if (i == first || (down && x_[i] <= lower_[i]) || (up && x_[i] >= upper_[i])) {
         place(i) = down ? Place::AtLower : Place::AtUpper;
         x_[i] = down ? lower_[i] : upper_[i];

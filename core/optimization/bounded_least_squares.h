@@ -29,16 +29,16 @@ struct BoundedLeastSquaresResult {
 
 /// @param A m x n; any rank, m and n as they come.
 /// @param lower, upper n entries each, lower <= upper; upper may be +infinity, lower may be -infinity.
-/// @param start warm start: a point whose active bounds are tried first (it is moved between the bounds). Empty: every
-/// variable at the bound nearer to 0.
-/// A wrong size, NaN or lower > upper is a bug of the caller.
+/// @param start warm start: a point whose active bounds are tried first (it is moved between the bounds). Empty:
+/// every variable at the bound nearer to 0. A wrong size, NaN or lower > upper is a bug of the caller.
 BoundedLeastSquaresResult solveBoundedLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                                    const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                                                    const BoundedLeastSquaresOptions& options = {},
                                                    const Eigen::VectorXd& start = {});
 
-/// Largest violation of the KKT conditions at x: gradients of free variables, gradients that push off an active bound,
-/// distance out of the bounds; each gradient divided by (column's length) x max(|b|, |A x - b|). 0 at the optimum.
+/// Largest violation of the KKT conditions at x: gradients of free variables, gradients that push off an active
+/// bound, distance out of the bounds; each gradient divided by (column's length) x max(|b|, |A x - b|). 0 at the
+/// optimum.
 double kktViolation(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& lower,
                     const Eigen::VectorXd& upper, double regularization, const Eigen::VectorXd& x);
 

@@ -42,7 +42,9 @@ class RandomProblem {
   MatrixXd matrix(int rows, int columns, double density = 1) {
     return MatrixXd::NullaryExpr(rows, columns, [&] { return uniform() < density ? normal() : 0.0; });
   }
-  VectorXd vectorOf(int size) { return VectorXd::NullaryExpr(size, [&] { return normal(); }); }
+  VectorXd vectorOf(int size) {
+    return VectorXd::NullaryExpr(size, [&] { return normal(); });
+  }
   double normal() { return std::normal_distribution<double>{}(random_); }
   double uniform() { return std::generate_canonical<double, 53>(random_); }
 
@@ -51,7 +53,8 @@ class RandomProblem {
 };
 
 /// The optimum by trying every assignment of variables to lower bound, upper bound and between.
-double bestByExhaustion(const MatrixXd& A, const VectorXd& b, const VectorXd& lower, const VectorXd& upper, double w) {
+double bestByExhaustion(const MatrixXd& A, const VectorXd& b, const VectorXd& lower, const VectorXd& upper,
+                        double w) {
   const int n = static_cast<int>(A.cols());
   int combinations = 1;
   for (int i = 0; i < n; ++i) combinations *= 3;
@@ -148,7 +151,7 @@ TEST(BoundedLeastSquares, TakesDegenerateProblems) {
   EXPECT_NEAR(solved(A, vector({0.5, 1}), zero, one).residual.norm(), 0, 1e-12);
   EXPECT_NEAR(solved(A, vector({3, 6}), zero, one).residual.norm(), std::sqrt(5.0), 1e-12);  // both full, not enough
   EXPECT_EQ(solved(A, vector({1, 2}), vector({0.25, 0, 0}), vector({0.25, 1, 1})).x[0], 0.25);  // fixed
-  EXPECT_EQ(solved(A, zero.head(2), zero, one).x.norm(), 0);  // nothing wanted
+  EXPECT_EQ(solved(A, zero.head(2), zero, one).x.norm(), 0);                                    // nothing wanted
   EXPECT_EQ(solveBoundedLeastSquares(MatrixXd(2, 0), vector({1, 1}), {}, {}).residual.size(), 2);
 }
 
@@ -173,9 +176,9 @@ TEST(KktViolation, MeasuresHowFarAPointIsFromTheOptimum) {
   const MatrixXd A = MatrixXd::Identity(2, 2);
   const VectorXd b = vector({0.5, 2}), zero = VectorXd::Zero(2), one = VectorXd::Ones(2);
   EXPECT_NEAR(kktViolation(A, b, zero, one, 0, vector({0.5, 1})), 0, 1e-15);
-  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.5, 0})), 0.5);   // could rise
-  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.9, 1})), 0.1);   // not stationary
-  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.5, 1.5})), 0.4); // out of bounds
+  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.5, 0})), 0.5);    // could rise
+  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.9, 1})), 0.1);    // not stationary
+  EXPECT_GT(kktViolation(A, b, zero, one, 0, vector({0.5, 1.5})), 0.4);  // out of bounds
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ void avoidCornersOfPatella(const Skeleton& skeleton, Eigen::VectorXd& clinical) 
         knee = corner + 3 * kStep;
 }
 
-/// Middle angles of the sequences within 80 deg. At 90 deg (arm abducted in the frontal plane) flexion and rotation turn
-/// about the same axis, and a moment arm about either is not defined by the posture.
+/// Middle angles of the sequences within 80 deg. At 90 deg (arm abducted in the frontal plane) flexion and rotation
+/// turn about the same axis, and a moment arm about either is not defined by the posture.
 Eigen::VectorXd awayFromGimbalLimit(const Skeleton& skeleton, Eigen::VectorXd clinical) {
   for (const Joint& joint : skeleton.joints)
     if (joint.type != JointType::Revolute) {

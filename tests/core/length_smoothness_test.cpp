@@ -20,8 +20,8 @@ class LengthOverMotions : public testing::Test {
 };
 
 TEST_F(LengthOverMotions, NeverJumps) {
-  // A jump is a slope, over one step, that differs from that of the step before by more than 1 mm per degree. A smooth
-  // arm of 10 cm has a slope of 1.7 mm per degree, but it changes by less than a hundredth of that in a step.
+  // A jump is a slope, over one step, that differs from that of the step before by more than 1 mm per degree. A
+  // smooth arm of 10 cm has a slope of 1.7 mm per degree, but it changes by less than a hundredth of that in a step.
   constexpr double kStep_deg = 0.25, kJump_m_per_deg = 1e-3;
   double worst = 0;
   std::string worst_at;
@@ -50,8 +50,8 @@ TEST_F(LengthOverMotions, NeverJumps) {
   std::printf("largest change of slope in a step: %.3f mm per degree, %s\n", 1e3 * worst, worst_at.c_str());
 }
 
-/// The motions that the table of functions is judged over: either way of every coordinate in it, start to end as theta
-/// goes from 0 to 1, over at least the range in which its sign must hold.
+/// The motions that the table of functions is judged over: either way of every coordinate in it, start to end as
+/// theta goes from 0 to 1, over at least the range in which its sign must hold.
 TEST_F(LengthOverMotions, ExistForEveryFunction) {
   const CsvTable table{test::testDataDir() / "muscle_functions.csv",
                        "sinew.test.muscle_functions",

@@ -36,8 +36,8 @@ TEST_F(MuscleFunction, PrincipalAndSecondaryMomentsHaveTheAnatomicalSign) {
     const std::string name = nameOf(r.unit, r.coordinate);
     const char* sign = r.sign > 0 ? "+" : "-";
     if (r.strength == FunctionStrength::PostureDependent) {
-      std::printf("posture-dependent: %s, expected %s: %.2f cm, right over %.0f %% of %g to %g deg\n", name.c_str(), sign,
-                  verdicts[i].arm_cm, 100 * verdicts[i].share_of_range, r.min_deg, r.max_deg);
+      std::printf("posture-dependent: %s, expected %s: %.2f cm, right over %.0f %% of %g to %g deg\n", name.c_str(),
+                  sign, verdicts[i].arm_cm, 100 * verdicts[i].share_of_range, r.min_deg, r.max_deg);
       continue;
     }
     if (r.strength == FunctionStrength::Principal) {
@@ -99,11 +99,11 @@ class ForeignTable : public MuscleFunction {
 };
 
 TEST_F(ForeignTable, OfMomentArmsIsRead) {
-  const auto references = loadMomentArmReferences(
-      fileOf(header_ + "soleus_medial,ankle_dorsiflexion,knee_flexion=30,10,-4.5,-6,-3\n"
-                       "soleus_medial_l,ankle_dorsiflexion_l,,0,-4.5,4,5\n"
-                       "rectus_abdominis,lumbar_flexion,,0,8,4,12\n"),
-      skeleton_, musculature_);
+  const auto references =
+      loadMomentArmReferences(fileOf(header_ + "soleus_medial,ankle_dorsiflexion,knee_flexion=30,10,-4.5,-6,-3\n"
+                                               "soleus_medial_l,ankle_dorsiflexion_l,,0,-4.5,4,5\n"
+                                               "rectus_abdominis,lumbar_flexion,,0,8,4,12\n"),
+                              skeleton_, musculature_);
   ASSERT_EQ(references.size(), 3u);
   EXPECT_EQ(nameOf(references[0].unit, references[0].coordinate), "soleus_medial_r about ankle_dorsiflexion_r");
   EXPECT_EQ(references[0].posture_deg,
@@ -116,11 +116,11 @@ TEST_F(ForeignTable, OfMomentArmsIsRead) {
 }
 
 TEST_F(ForeignTable, OfFunctionsCountsBothRowsOnce) {
-  const auto references = loadFunctionReferences(
-      fileOf("muscle,dof,sign,role,strength,test_min_deg,test_max_deg,test_pose\n"
-             "soleus_medial_r,ankle_dorsiflexion,-,agonist,principal,-40,20,\n"
-             "soleus_medial_r,ankle_dorsiflexion,-,antagonist,principal,-40,20,\n"),
-      skeleton_, musculature_);
+  const auto references =
+      loadFunctionReferences(fileOf("muscle,dof,sign,role,strength,test_min_deg,test_max_deg,test_pose\n"
+                                    "soleus_medial_r,ankle_dorsiflexion,-,agonist,principal,-40,20,\n"
+                                    "soleus_medial_r,ankle_dorsiflexion,-,antagonist,principal,-40,20,\n"),
+                             skeleton_, musculature_);
   ASSERT_EQ(references.size(), 1u);
   const auto verdicts = judgeFunctions(skeleton_, musculature_, references);
   EXPECT_TRUE(verdicts[0].right);

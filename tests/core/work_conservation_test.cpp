@@ -47,8 +47,8 @@ TEST_F(WorkConservation, ForcesOnTheSegmentsLoadTheCoordinatesAsTheLengthChanges
     const std::array charts{kinematics(skeleton_, q), clinicalKinematics(skeleton_, q)};
     for (const Kinematics& k : charts)
       for (const auto& unit : musculature_.units)
-        worst = std::max(
-            worst, (loadOfTension(skeleton_, k, unit, 1) + lengthGradient(unit, k)).cwiseAbs().maxCoeff());
+        worst =
+            std::max(worst, (loadOfTension(skeleton_, k, unit, 1) + lengthGradient(unit, k)).cwiseAbs().maxCoeff());
   }
   std::printf("largest difference of J^T f and -f dl/dq at 1 N: %.1e m\n", worst);
   EXPECT_LT(worst, kTolerance_m);
@@ -58,11 +58,21 @@ TEST_F(WorkConservation, ForcesOnTheSegmentsLoadTheCoordinatesAsTheLengthChanges
 TEST_F(WorkConservation, HoldsForPointsBlendedOfDrivenSegments) {
   const auto segment = [&](const char* name) { return skeleton_.segmentIndex(name); };
   MusculotendonUnit unit;
-  unit.path = {
-      {PathPointRole::Origin, {{segment("pelvis"), 0.3, {0.02, 0.1, 0.1}}, {segment("lumbar"), 0.7, {0, 0.1, 0.05}}}, "", ""},
-      {PathPointRole::Via, {{segment("femur_r"), 0.6, {0.05, -0.3, 0}}, {segment("patella_r"), 0.4, {0, 0.02, 0.01}}}, "", ""},
-      {PathPointRole::Via, {{segment("hand_r"), 0.5, {0, -0.05, 0}}, {segment("radius_r"), 0.2, {0.01, -0.1, 0}}, {segment("ulna_r"), 0.3, {0, -0.1, 0.02}}}, "", ""},
-      {PathPointRole::Insertion, {{segment("radius_l"), 1, {0.01, -0.1, 0.01}}}, "", ""}};
+  unit.path = {{PathPointRole::Origin,
+                {{segment("pelvis"), 0.3, {0.02, 0.1, 0.1}}, {segment("lumbar"), 0.7, {0, 0.1, 0.05}}},
+                "",
+                ""},
+               {PathPointRole::Via,
+                {{segment("femur_r"), 0.6, {0.05, -0.3, 0}}, {segment("patella_r"), 0.4, {0, 0.02, 0.01}}},
+                "",
+                ""},
+               {PathPointRole::Via,
+                {{segment("hand_r"), 0.5, {0, -0.05, 0}},
+                 {segment("radius_r"), 0.2, {0.01, -0.1, 0}},
+                 {segment("ulna_r"), 0.3, {0, -0.1, 0.02}}},
+                "",
+                ""},
+               {PathPointRole::Insertion, {{segment("radius_l"), 1, {0.01, -0.1, 0.01}}}, "", ""}};
   std::mt19937_64 random{5};
   for (int trial = 0; trial < 50; ++trial) {
     const Kinematics k =
@@ -74,8 +84,8 @@ TEST_F(WorkConservation, HoldsForPointsBlendedOfDrivenSegments) {
 /// Force is a function of length alone, so the work around any closed loop of postures vanishes: passive, and at a
 /// held activation.
 TEST_F(WorkConservation, ClosedLoopsOfPosturesCostNothing) {
-  // The trapezoid rule on a smooth periodic function is exact; corners in the slopes of the curves and of the patella's
-  // glide leave an error of second order in the step.
+  // The trapezoid rule on a smooth periodic function is exact; corners in the slopes of the curves and of the
+  // patella's glide leave an error of second order in the step.
   constexpr int kSteps = 1500;
   constexpr double kShareOfWork = 1e-6;
   std::mt19937_64 random{23};
@@ -83,8 +93,9 @@ TEST_F(WorkConservation, ClosedLoopsOfPosturesCostNothing) {
     const Eigen::VectorXd from = 0.6 * test::randomClinical(skeleton_, random);
     const Posture centre = postureFromClinical(skeleton_, from);
     const auto direction = [&] {
-      return Eigen::VectorXd{Eigen::VectorXd::NullaryExpr(
-          centre.size(), [&] { return std::uniform_real_distribution{-0.3, 0.3}(random); })};
+      return Eigen::VectorXd{Eigen::VectorXd::NullaryExpr(centre.size(), [&] {
+        return std::uniform_real_distribution{-0.3, 0.3}(random);
+      })};
     };
     const Eigen::VectorXd a = direction(), b = direction(), c = direction();
     double work_J = 0, moved_J = 0;
@@ -101,7 +112,8 @@ TEST_F(WorkConservation, ClosedLoopsOfPosturesCostNothing) {
         moved_J += std::abs(work);
       }
     }
-    std::printf("work around the loop at activation %.1f: %.1e of %.0f J moved\n", activation, work_J / moved_J, moved_J);
+    std::printf("work around the loop at activation %.1f: %.1e of %.0f J moved\n", activation, work_J / moved_J,
+                moved_J);
     EXPECT_GT(moved_J, 100);
     EXPECT_LT(std::abs(work_J), kShareOfWork * moved_J);
   }

@@ -10,8 +10,8 @@ namespace sinew::test {
 
 /// Random valid postures of the whole body: trunk and right limbs of one normal posture, left limbs of another's
 /// mirror image, kept if no unit is beyond its longest length.
-inline std::vector<Posture> validPostures(const Skeleton& skeleton, const Musculature& musculature,
-                                          std::size_t count, unsigned seed) {
+inline std::vector<Posture> validPostures(const Skeleton& skeleton, const Musculature& musculature, std::size_t count,
+                                          unsigned seed) {
   const std::vector<Posture> half = normalPostures(skeleton, 2000);
   std::mt19937_64 random{seed};
   std::uniform_int_distribution<std::size_t> any{0, half.size() - 1};
