@@ -12,8 +12,17 @@ namespace sinew {
 CsvTable::CsvTable(const std::filesystem::path& file, std::string_view format, int version,
                    const std::vector<std::string>& columns)
     : file_{file.filename().string()} {
+  read(file, "# " + std::string{format} + " " + std::to_string(version) + ":", columns);
+}
+
+CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::string>& columns)
+    : file_{file.filename().string()} {
+  read(file, "", columns);
+}
+
+void CsvTable::read(const std::filesystem::path& file, const std::string& start,
+                    const std::vector<std::string>& columns) {
   std::istringstream lines{readFile(file)};
-  const std::string start = "# " + std::string{format} + " " + std::to_string(version) + ":";
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -33,6 +42,10 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::string_view format, i
   for (const auto& column : columns)
     if (const auto n = std::ranges::count(header_, column); n != 1)
       throw InputError{{file_, "header", "one column '" + column + "'", std::to_string(n)}};
+}
+
+bool CsvTable::hasColumn(std::string_view column) const {
+  return std::ranges::find(header_, column) != header_.end();
 }
 
 std::size_t CsvTable::columnIndex(std::string_view column) const {

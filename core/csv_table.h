@@ -15,6 +15,10 @@ class CsvTable {
   CsvTable(const std::filesystem::path& file, std::string_view format, int version,
            const std::vector<std::string>& columns);
 
+  /// A table from elsewhere: no format line is asked for; otherwise the same.
+  CsvTable(const std::filesystem::path& file, const std::vector<std::string>& columns);
+
+  bool hasColumn(std::string_view column) const;
   std::size_t rowCount() const { return rows_.size(); }
   /// Cell as text. `column` is one of the header's (a bug of the caller otherwise).
   const std::string& text(std::size_t row, std::string_view column) const;
@@ -31,6 +35,8 @@ class CsvTable {
     std::vector<std::string> cells;
   };
   std::size_t columnIndex(std::string_view column) const;
+  /// `start` must begin the first line.
+  void read(const std::filesystem::path& file, const std::string& start, const std::vector<std::string>& columns);
 
   std::string file_;
   std::vector<std::string> header_;

@@ -29,6 +29,8 @@ void addFitCommand(Commands& commands);
 void addExamCommand(Commands& commands);
 void addModelCommands(Commands& commands);
 void addClearanceCommand(CLI::App& model, Commands& commands);  // of `sinew model`
+void addAuditCommand(CLI::App& parent, Commands& commands);       // model audit
+void addMomentArmsCommand(CLI::App& parent, Commands& commands);  // model moment-arms
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);

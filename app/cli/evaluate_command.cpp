@@ -3,6 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "core/file.h"
+#include "core/muscle/controllability.h"
 #include "core/muscle/evaluate.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/text.h"
@@ -11,8 +12,9 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t kLimitingMuscles = 10;
-const std::vector<std::string> kQuantities = {"lengths",        "moment_arms", "validity",      "limiting_muscle",
-                                              "passive_torque", "peak_torque", "fiber_lengths", "passive_forces"};
+const std::vector<std::string> kQuantities = {"lengths",         "moment_arms",    "validity",
+                                              "limiting_muscle", "passive_torque", "peak_torque",
+                                              "fiber_lengths",   "passive_forces", "controllability"};
 
 struct NamedPosture {
   std::string name;
@@ -92,6 +94,18 @@ Json peakTorqueJson(const Model& model, const IsometricTorque& torque) {
   return json;
 }
 
+/// Both ways of every coordinate but the root's.
+Json controllabilityJson(const Model& model, const Posture& posture) {
+  Json json = Json::object();
+  for (const auto& control : controllability(model.skeleton, model.musculature, posture))
+    json[model.skeleton.coordinates[static_cast<std::size_t>(control.coordinate)].name] = {
+        {"increasing_residual", control.increasing.residual},
+        {"increasing_strength_Nm", control.increasing.strength_Nm},
+        {"decreasing_residual", control.decreasing.residual},
+        {"decreasing_strength_Nm", control.decreasing.strength_Nm}};
+  return json;
+}
+
 Json postureJson(const Model& model, const NamedPosture& posture, const std::vector<std::string>& what) {
   const PostureEvaluation e = evaluatePosture(model.skeleton, model.musculature, posture.posture);
   Json json{{"name", posture.name}};
@@ -108,6 +122,7 @@ Json postureJson(const Model& model, const NamedPosture& posture, const std::vec
       json["peak_torque_Nm"] = peakTorqueJson(model, isometricTorque(model.musculature, e));
     if (quantity == "fiber_lengths")
       json["normalized_fiber_lengths"] = byUnit(model.musculature, e.normalized_fiber_length);
+    if (quantity == "controllability") json["controllability"] = controllabilityJson(model, posture.posture);
     if (quantity == "passive_forces") json["passive_forces_N"] = byUnit(model.musculature, e.passive_force_N);
   }
   return json;
@@ -163,7 +178,9 @@ void addEvaluateCommand(Commands& commands) {
   command
       .add_option("--what", o->what,
                   "of lengths, moment_arms, validity, limiting_muscle, passive_torque, peak_torque (isometric, every "
-                  "muscle that turns that way fully active), fiber_lengths, passive_forces")
+                  "muscle that turns that way fully active), fiber_lengths, passive_forces, controllability (can "
+                  "activations turn "
+                  "every coordinate both ways, alone: residual 0 to 1, strength)")
       ->capture_default_str();
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {

@@ -59,7 +59,8 @@ void addInfo(CLI::App& parent, Commands& commands) {
 
 /// Odd, but no error: a finding that leaves the model usable.
 bool isDoubt(const Warning& finding) {
-  return finding.code == "muscle_standing_fiber" || finding.code == "muscle_overstretched";
+  return finding.code == "muscle_standing_fiber" || finding.code == "muscle_overstretched" ||
+         finding.code == "muscle_sides_differ";
 }
 
 void addValidate(CLI::App& parent, Commands& commands) {
@@ -95,6 +96,8 @@ void addModelCommands(Commands& commands) {
   addInfo(model, commands);
   addValidate(model, commands);
   addClearanceCommand(model, commands);
+  addAuditCommand(model, commands);
+  addMomentArmsCommand(model, commands);
 }
 
 }  // namespace sinew

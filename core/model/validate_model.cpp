@@ -36,6 +36,36 @@ bool isSegment(const Skeleton& s, int index) {
   return index >= 0 && index < static_cast<int>(s.segments.size());
 }
 
+/// A joint's coordinates: as many as its type has, in a row, about unit axes; the second axis of a sequence is normal
+/// to its neighbours, or its angles would not be unique.
+void checkCoordinates(const Skeleton& s, const Joint& joint, Findings& findings) {
+  const int count = joint.type == JointType::Free ? 6 : joint.type == JointType::Ball ? 3 : 1;
+  const int first = joint.first_coordinate, end = first + joint.coordinate_count;
+  if (joint.coordinate_count != count || first < 0 || end > s.coordinateCount())
+    return findings.add("joint_coordinates", joint.name, "it does not have the coordinates of its type");
+  for (int i = first; i < end; ++i) {
+    const Coordinate& c = s.coordinates[i];
+    if (std::abs(c.axis.norm() - 1) > 1e-9) findings.add("coordinate_axis", c.name, "its axis is no unit vector");
+    if (!(c.normal_min_rad < c.normal_max_rad)) findings.add("coordinate_limits", c.name, "its range is empty");
+    const bool middle = count > 1 && i == end - 2;
+    if (middle && std::max(std::abs(c.axis.dot(s.coordinates[i - 1].axis)),
+                           std::abs(c.axis.dot(s.coordinates[i + 1].axis))) > 1e-6)
+      findings.add("coordinate_axis", c.name, "its axis is not normal to those before and after it");
+  }
+}
+
+/// Driven segments hang on the right ones; masses and inertias need none of this.
+void checkDrivers(const Skeleton& s, Findings& findings) {
+  for (const PatellaDriver& d : s.patellae)
+    if (!isSegment(s, d.segment) || !isSegment(s, d.femur) || d.knee_coordinate < 0 ||
+        d.knee_coordinate >= s.coordinateCount() || !(d.radius_m > 0))
+      findings.add("driven_segment", "patella", "it has no knee to glide on");
+  for (const RadiusDriver& d : s.radii)
+    if (!isSegment(s, d.segment) || !isSegment(s, d.ulna) || d.wrist_joint < 0 ||
+        d.wrist_joint >= static_cast<int>(s.joints.size()) || std::abs(d.axis_U.norm() - 1) > 1e-9)
+      findings.add("driven_segment", "radius", "it has no axis to turn about");
+}
+
 void checkSkeleton(const Skeleton& s, Findings& findings) {
   for (const Joint& joint : s.joints) {
     const Eigen::Matrix3d R = joint.X_PJ.linear();
@@ -43,6 +73,7 @@ void checkSkeleton(const Skeleton& s, Findings& findings) {
       findings.add("joint_frame", joint.name, "its frame is not a rotation");
     if (joint.parent >= joint.child) findings.add("joint_order", joint.name, "its parent comes after its child");
   }
+  for (const Joint& joint : s.joints) checkCoordinates(s, joint, findings);
   for (const Coordinate& c : s.coordinates)
     if (c.athlete_min_rad > c.normal_min_rad || c.athlete_max_rad < c.normal_max_rad)
       findings.add("coordinate_limits", c.name, "the normal range reaches beyond the athlete envelope");
@@ -54,6 +85,7 @@ void checkSkeleton(const Skeleton& s, Findings& findings) {
       if (!(I(a, a) > 0) || I(a, a) > I((a + 1) % 3, (a + 1) % 3) + I((a + 2) % 3, (a + 2) % 3) + 1e-12)
         findings.add("segment_inertia", segment.name, "no body has these moments of inertia");
   }
+  checkDrivers(s, findings);
 }
 
 /// Segments that a unit hangs on; empty if an anchor is unusable.
@@ -80,7 +112,17 @@ void checkUnit(const MusculotendonUnit& unit, const Skeleton& s, const std::vect
                bool shortened, Findings& findings) {
   if (!(unit.max_isometric_force_N > 0) || !(unit.optimal_fiber_length_m > 0) || !(unit.tendon_slack_length_m > 0))
     return findings.add("muscle_parameters", unit.name, "force, fibre or tendon length is not positive");
+  const double pennation = unit.pennation_angle_at_optimal_rad;
+  if (!std::isfinite(unit.max_isometric_force_N + unit.optimal_fiber_length_m + unit.tendon_slack_length_m) ||
+      !(pennation >= 0 && pennation < 1.5))
+    return findings.add("muscle_parameters", unit.name, "a figure is infinite, or pennation is not from 0 to 86 deg");
   if (unit.path.size() < 2) return findings.add("muscle_path", unit.name, "fewer than two points");
+  for (std::size_t i = 0; i < unit.path.size(); ++i)
+    if (unit.path[i].role != (i == 0                     ? PathPointRole::Origin
+                              : i + 1 < unit.path.size() ? PathPointRole::Via
+                                                         : PathPointRole::Insertion))
+      findings.add("muscle_path", unit.name,
+                   "not origin, via points, insertion in order (" + unit.path[i].site + ")");
   const auto segments = checkAnchors(unit, s, findings);
   if (segments.empty()) return;
   if (segments.size() == 1) findings.add("muscle_spans_no_joint", unit.name, "all points are on one segment");
@@ -116,6 +158,14 @@ void checkMirror(const Model& model, const std::vector<RigidTransform>& X_WB, Fi
     bool same = here.size() == there.size();
     for (std::size_t i = 0; same && i < here.size(); ++i) same = (mirrored(here[i]) - there[i]).norm() < kTolerance_m;
     if (!same) findings.add("muscle_mirror", name, "left and right paths are not mirror images");
+    const MusculotendonUnit &r = *unit, &l = *left->second;
+    const bool examined = model.length_factors.contains(r.name) || model.length_factors.contains(l.name);
+    if (r.max_isometric_force_N != l.max_isometric_force_N ||
+        r.pennation_angle_at_optimal_rad != l.pennation_angle_at_optimal_rad ||
+        (!examined && (r.optimal_fiber_length_m != l.optimal_fiber_length_m ||
+                       r.tendon_slack_length_m != l.tendon_slack_length_m)))
+      findings.add("muscle_sides_differ", name,
+                   "left and right have different figures in a body without deformation");
   }
 }
 

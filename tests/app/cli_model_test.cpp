@@ -1,4 +1,5 @@
 #include "core/file.h"
+#include "core/model/model.h"
 #include "core/text.h"
 #include "tests/app/cli_support.h"
 
@@ -20,6 +21,64 @@ TEST(CliModel, InfoOfTheReferenceGivesItsPublishedCounts) {
                                                 {"revolute", 5},  {"ball", 13},          {"coordinates", 50},
                                                 {"muscles", 282}};
   for (const auto& [name, count] : published) EXPECT_EQ(info[name], count) << name;
+  EXPECT_NEAR(info["mass_kg"].get<double>(), 73, 0.005);
+}
+
+TEST(CliModel, AuditOfTheReferenceHasNoOutliers) {
+  const ProgramResult result = sinewProgram({"model", "audit", "reference", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Json audit = documentOf(result);
+  EXPECT_EQ(audit["outliers"], 0);
+  EXPECT_EQ(audit["units"].size(), 282u);
+  EXPECT_EQ(audit["findings"].size(), audit["explained"].get<std::size_t>());
+  for (const auto& finding : audit["findings"]) EXPECT_FALSE(finding["reason"].get<std::string>().empty());
+  const ProgramResult text = sinewProgram({"model", "audit", "reference", "--all"});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("F_max N"), HasSubstr("Explained: "), HasSubstr(" 0 outliers\n")));
+}
+
+TEST(CliModel, AuditNamesAForceThatSlipped) {
+  const test::TemporaryFolder folder;
+  Model model = loadReferenceModel(test::resourceDir());
+  model.musculature.units[0].max_isometric_force_N *= 10;
+  saveModel(model, folder / "model.json");
+  const ProgramResult result = sinewProgram({"model", "audit", folder / "model.json"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("Outlier: "), HasSubstr("psoas_major_superior_r"), HasSubstr("psoas_major_*_r")));
+}
+
+TEST(CliModel, MomentArmsJudgesTablesOfOthers) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "arms.csv",
+                      "muscle,dof,pose_other_dofs,angle_deg,reference_cm,accept_min_cm,accept_max_cm\n"
+                      "soleus_medial,ankle_dorsiflexion,,0,-4.5,-6,-3\n"
+                      "soleus_medial,ankle_dorsiflexion,knee_flexion=90,0,4.5,3,6\n");
+  const ProgramResult result = sinewProgram({"model", "moment-arms", "reference", "--reference", folder / "arms.csv",
+                                             "--functions", test::testDataDir() / "muscle_functions.csv", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json judged = documentOf(result);
+  EXPECT_EQ(judged["moment_arms"]["inside"], 1);
+  EXPECT_EQ(judged["moment_arms"]["wrong_sign"], 1);
+  EXPECT_EQ(judged["moment_arms"]["listed"][0]["where"], "arms.csv: line 3");
+  EXPECT_EQ(judged["functions"]["principal"]["rows"], 177);
+  const ProgramResult text = sinewProgram({"model", "moment-arms", "reference", "--reference", folder / "arms.csv"});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("wrong sign"), HasSubstr("moment arms inside: 50.0 % (1 of 2)")));
+  EXPECT_THAT(sinewProgram({"model", "moment-arms", "reference"}).err, HasSubstr("--functions"));
+}
+
+TEST(CliModel, EvaluateSaysWhatActivationsCanTurn) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "postures.json").string();
+  writeFileAtomically(file, R"([{"name":"standing","coordinates_deg":{}}])");
+  const std::vector<std::string> command = {"evaluate", "reference", "--postures", file, "--what", "controllability"};
+  std::vector<std::string> with_json = command;
+  with_json.push_back("--json");
+  const Json controls = documentOf(sinewProgram(with_json))["postures"][0]["controllability"];
+  EXPECT_EQ(controls.size(), 44u);
+  EXPECT_LT(controls["knee_flexion_r"]["increasing_residual"].get<double>(), 0.01);
+  EXPECT_GT(controls["knee_flexion_r"]["decreasing_strength_Nm"].get<double>(), 100);
+  EXPECT_THAT(sinewProgram(command).out,
+              HasSubstr("standing,controllability,knee_flexion_r,increasing_strength_Nm,"));
 }
 
 TEST(CliModel, TheReferenceIsValidAndDamageIsNot) {

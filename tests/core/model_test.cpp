@@ -246,6 +246,19 @@ TEST(ValidateModel, FindsWhatIsBroken) {
               Contains("muscle_name"));
   EXPECT_THAT(broken([](Model& m) { m.skeleton.segments[0].mass_kg = 0; }), Contains("segment_mass"));
   EXPECT_THAT(broken([](Model& m) { m.length_factors["nobody"] = 1; }), Contains("length_factor"));
+  EXPECT_THAT(broken([](Model& m) { m.musculature.units[3].pennation_angle_at_optimal_rad = 1.6; }),
+              Contains("muscle_parameters"));
+  EXPECT_THAT(broken([](Model& m) { m.musculature.units[3].max_isometric_force_N *= 1.1; }),
+              Contains("muscle_sides_differ"));
+  EXPECT_THAT(
+      broken([](Model& m) { std::swap(m.musculature.units[3].path.front(), m.musculature.units[3].path.back()); }),
+      Contains("muscle_path"));
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[7].axis *= 1.01; }), Contains("coordinate_axis"));
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[7].axis = m.skeleton.coordinates[6].axis; }),
+              Contains("coordinate_axis"));
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[9].normal_max_rad = -1; }), Contains("coordinate_limits"));
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.joints[2].coordinate_count = 2; }), Contains("joint_coordinates"));
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.radii[0].axis_U *= 2; }), Contains("driven_segment"));
   EXPECT_THAT(broken([](Model& m) {
                 auto& path = m.musculature.units[3].path;
                 for (auto& point : path) point.anchors = {path[0].anchors[0]};

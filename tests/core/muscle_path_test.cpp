@@ -39,55 +39,6 @@ TEST(MusclePath, ABlendedPointLiesBetweenItsAnchors) {
   EXPECT_NEAR(pathLength(unit, X_WB), std::sqrt(0.0625 + 0.5625 + 9), 1e-15);
 }
 
-TEST(MusclePath, GradientIsTheDerivativeOfLengthAtRandomPostures) {
-  std::mt19937_64 random{7};
-  constexpr double h = 1e-5;
-  for (int trial = 0; trial < 100; ++trial) {
-    const Posture q = postureFromClinical(skeleton(), test::randomClinical(skeleton(), random));
-    const Kinematics k = kinematics(skeleton(), q);
-    Eigen::MatrixXd difference(musculature().units.size(), q.size());
-    for (int c = 0; c < q.size(); ++c) {
-      Posture plus = q, minus = q;
-      plus[c] += h;
-      minus[c] -= h;
-      const auto X_plus = segmentPoses(skeleton(), plus), X_minus = segmentPoses(skeleton(), minus);
-      for (std::size_t u = 0; u < musculature().units.size(); ++u)
-        difference(static_cast<Eigen::Index>(u), c) =
-            (pathLength(musculature().units[u], X_plus) - pathLength(musculature().units[u], X_minus)) / (2 * h);
-    }
-    for (std::size_t u = 0; u < musculature().units.size(); ++u) {
-      const Eigen::VectorXd gradient = lengthGradient(musculature().units[u], k);
-      ASSERT_EQ(gradient.size(), q.size());
-      // Moment arms are some centimetres: 1e-7 of 0.1 m; central differences at 1e-5 rad are good to about 1e-10.
-      const double error =
-          (gradient - difference.row(static_cast<Eigen::Index>(u)).transpose()).cwiseAbs().maxCoeff();
-      EXPECT_LT(error, 1e-8 + 1e-7 * gradient.cwiseAbs().maxCoeff()) << musculature().units[u].name;
-    }
-  }
-}
-
-/// Work is conserved: the pulls of a unit's tension on every segment, carried to the coordinates by point Jacobians,
-/// are -f dl/dq, for blended points and driven segments too.
-TEST(MusclePath, ForcesOnTheSegmentsDoTheWorkOfTheLength) {
-  std::mt19937_64 random{11};
-  for (int trial = 0; trial < 5; ++trial) {
-    const Posture q = postureFromClinical(skeleton(), test::randomClinical(skeleton(), random));
-    const Kinematics k = kinematics(skeleton(), q);
-    for (const auto& unit : musculature().units) {
-      const auto points = pathPoints(unit, k.X_WB);
-      Eigen::VectorXd load = Eigen::VectorXd::Zero(q.size());
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        Eigen::Vector3d pull = Eigen::Vector3d::Zero();  // of a tension of 1 N, towards both neighbours
-        if (i > 0) pull += (points[i - 1] - points[i]).normalized();
-        if (i + 1 < points.size()) pull += (points[i + 1] - points[i]).normalized();
-        for (const Anchor& a : unit.path[i].anchors)
-          load += a.weight * pointJacobian(skeleton(), k, a.segment, a.p_B).transpose() * pull;
-      }
-      EXPECT_LT((load + lengthGradient(unit, k)).cwiseAbs().maxCoeff(), 1e-12) << unit.name;
-    }
-  }
-}
-
 TEST(MusclePath, PassiveLoadsIgnoreWhereTheBodyStands) {
   std::mt19937_64 random{13};
   const Kinematics k =
