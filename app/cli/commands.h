@@ -31,5 +31,7 @@ void addModelCommands(Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addExportCommand(Commands& commands);
+void addBenchCommand(Commands& commands);
 
 }  // namespace sinew

@@ -53,45 +53,58 @@ TEST(Mjcf, ThePatellaIsAQuarticOfTheKneeWithin2Degrees) {
   EXPECT_GT(fit.coefficients[1], 0.5);  // it follows the knee
 }
 
-TEST(MjcfInMujoco, LengthsOfPlainUnitsAgreeAndTheOthersStayNear) {
-  const auto mujoco = MujocoPeer::make(reference());
-  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
-  constexpr double kSame_m = 1e-4;
+/// Largest difference of length by unit, over 100 postures inside the athlete envelope or the adult norm.
+std::map<std::string, double> deviations_m(MujocoPeer& mujoco, bool athlete) {
   const Skeleton& s = reference().skeleton;
   std::mt19937_64 random{41};
-  double plain_m = 0, hand_m = 0;
   std::map<std::string, double> deviation_m;
-  int plain = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const Posture q = postureFromClinical(s, test::randomClinical(s, random));
+    Eigen::VectorXd clinical = test::randomClinical(s, random);
+    for (int i = 0; !athlete && i < clinical.size(); ++i)
+      clinical[i] = std::clamp(clinical[i], s.coordinates[i].normal_min_rad, s.coordinates[i].normal_max_rad);
+    const Posture q = postureFromClinical(s, clinical);
     const auto X_WB = segmentPoses(s, q);
-    mujoco->setPositions(mujoco->positions(q));
-    mujoco->lengthsAndGradients();
-    plain = 0;
+    mujoco.setPositions(mujoco.positions(q));
+    mujoco.lengthsAndGradients();
     for (std::size_t u = 0; u < reference().musculature.units.size(); ++u) {
       const MusculotendonUnit& unit = reference().musculature.units[u];
-      const double off_m = std::abs(mujoco->length_m(int(u)) - pathLength(unit, X_WB));
-      if (isPlain(unit))
-        plain_m = std::max(plain_m, off_m), ++plain;
-      else
-        deviation_m[unit.name] = std::max(deviation_m[unit.name], off_m);
+      double& largest_m = deviation_m[unit.name];
+      largest_m = std::max(largest_m, std::abs(mujoco.length_m(int(u)) - pathLength(unit, X_WB)));
     }
-    for (const char* name : {"hand_r", "patella_l", "radius_r", "head"}) {
-      const int segment = s.segmentIndex(name);
-      hand_m = std::max(hand_m, (mujoco->p_WB(segment) - X_WB[segment].translation()).norm());
-    }
+    // Origins of all bodies, driven ones included, are where ours are.
+    for (std::size_t i = 0; i < X_WB.size(); ++i)
+      EXPECT_LT((mujoco.p_WB(int(i)) - X_WB[i].translation()).norm(), 1e-9) << s.segments[i].name;
   }
-  EXPECT_LT(plain_m, kSame_m);
-  EXPECT_LT(hand_m, kSame_m);
-  EXPECT_GT(plain, 150);
-  double worst_m = 0;
-  std::string worst;
-  for (const auto& [name, off_m] : deviation_m)
-    if (off_m > worst_m) worst_m = off_m, worst = name;
-  std::printf("plain units: %d, within %.2g m; the %zu others: up to %.1f mm (%s)\n", plain, plain_m,
-              deviation_m.size(), 1000 * worst_m, worst.c_str());
-  // The radius turns by pronation, not by twist: millimetres at the ends of the wrist's motion.
-  EXPECT_LT(worst_m, 0.03) << worst;
+  return deviation_m;
+}
+
+TEST(MjcfInMujoco, LengthsOfPlainUnitsAgreeToATenthOfAMillimetre) {
+  const auto mujoco = MujocoPeer::make(reference());
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  int plain = 0;
+  for (const auto& [name, off_m] : deviations_m(*mujoco, true)) {
+    if (!isPlain(reference().musculature.unit(name))) continue;
+    ++plain;
+    EXPECT_LT(off_m, 1e-4) << name;
+  }
+  EXPECT_GT(plain, 100);
+}
+
+TEST(MjcfInMujoco, TheOthersDeviateAsStated) {
+  const auto mujoco = MujocoPeer::make(reference());
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  constexpr double kStated_m = 0.03;  // docs/methods/model_exchange.md, inside the adult norm
+  int beyond_1mm = 0, others = 0;
+  std::pair<double, std::string> worst{0, ""};
+  for (const auto& [name, off_m] : deviations_m(*mujoco, false)) {
+    if (isPlain(reference().musculature.unit(name))) continue;
+    ++others;
+    beyond_1mm += off_m > 1e-3;
+    worst = std::max(worst, {off_m, name});
+  }
+  std::printf("%d units with blended points or on driven bones; %d beyond 1 mm; largest %.1f mm (%s)\n", others,
+              beyond_1mm, 1000 * worst.first, worst.second.c_str());
+  EXPECT_LT(worst.first, kStated_m) << worst.second;
 }
 
 TEST(MjcfInMujoco, TheBodyFallsWithoutBreaking) {
