@@ -34,5 +34,7 @@ void addMomentArmsCommand(CLI::App& parent, Commands& commands);  // model momen
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addExportCommand(Commands& commands);
+void addBenchCommand(Commands& commands);
 
 }  // namespace sinew

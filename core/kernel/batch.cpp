@@ -29,6 +29,10 @@ const KernelTable& kernels(Isa isa) {
   return kKernelsBaseline;
 }
 
+KernelLanes kernelLanes(Isa isa) {
+  return {kernels(isa).double_lanes, kernels(isa).float_lanes};
+}
+
 KernelScratch::KernelScratch(const CompiledModel& model)
     : memory_(scratchRegisters(model.arrays().view<double>()) * kRegisterDoubles) {}
 

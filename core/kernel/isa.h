@@ -17,4 +17,11 @@ std::vector<Isa> supportedIsas();
 /// @throws InputError if it names none, or one that this processor does not have.
 Isa chosenIsa();
 
+/// Postures in one register.
+struct KernelLanes {
+  int doubles = 0, floats = 0;
+  int single = 1;  ///< where one posture is evaluated alone
+};
+KernelLanes kernelLanes(Isa isa);
+
 }  // namespace sinew

@@ -3,6 +3,6 @@
 
 namespace sinew {
 
-const KernelTable kKernelsBaseline = kernelTable<16>();
+constinit const KernelTable kKernelsBaseline = kernelTable<16>();
 
 }  // namespace sinew

@@ -3,6 +3,6 @@
 
 namespace sinew {
 
-const KernelTable kKernelsV3 = kernelTable<32>();
+constinit const KernelTable kKernelsV3 = kernelTable<32>();
 
 }  // namespace sinew

@@ -3,6 +3,6 @@
 
 namespace sinew {
 
-const KernelTable kKernelsV4 = kernelTable<64>();
+constinit const KernelTable kKernelsV4 = kernelTable<64>();
 
 }  // namespace sinew

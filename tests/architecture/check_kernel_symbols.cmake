@@ -1,0 +1,17 @@
+# Objects compiled for newer processors must define no weak function: the linker keeps one copy of each for the whole
+# program, and if it is this one, the program fails on an older processor.
+file(GLOB_RECURSE objects ${BUILD}/core/CMakeFiles/sinew_core.dir/kernel/kernels_v*.o)
+if(NOT objects)
+  message(STATUS "no kernels for newer processors here")
+  return()
+endif()
+foreach(object ${objects})
+  execute_process(COMMAND ${NM} -C --defined-only ${object} OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${NM} ${object}: ${failed}")
+  endif()
+  string(REGEX MATCHALL "[^\n]* [WVu] [^\n]*" weak "${symbols}")
+  if(weak)
+    message(FATAL_ERROR "${object} defines functions that other objects may share:\n${weak}")
+  endif()
+endforeach()
