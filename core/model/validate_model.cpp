@@ -37,7 +37,7 @@ bool isSegment(const Skeleton& s, int index) {
 }
 
 /// A joint's coordinates: as many as its type has, in a row, about unit axes; the second axis of a sequence is normal
-/// to its neighbours, or its angles would not be unique.
+/// to the third (the first may be oblique, as the forearm's is).
 void checkCoordinates(const Skeleton& s, const Joint& joint, Findings& findings) {
   const int count = joint.type == JointType::Free ? 6 : joint.type == JointType::Ball ? 3 : 1;
   const int first = joint.first_coordinate, end = first + joint.coordinate_count;
