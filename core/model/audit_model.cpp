@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -20,24 +21,34 @@ const MusculotendonUnit* findUnit(const Musculature& musculature, const std::str
   return found == musculature.units.end() ? nullptr : &*found;
 }
 
-/// Root mean square distance of a segment's landmarks from their middle, over those that both skeletons have.
+/// Points of a segment by name: its landmarks, its origin and the centres of the joints that hang on it.
+std::map<std::string, Eigen::Vector3d> pointsOf(const Skeleton& skeleton, const std::string& segment) {
+  const auto is = [&](int i) { return i >= 0 && skeleton.segments[static_cast<std::size_t>(i)].name == segment; };
+  std::map<std::string, Eigen::Vector3d> points{{"origin", Eigen::Vector3d::Zero()}};
+  for (const Landmark& landmark : skeleton.landmarks)
+    if (is(landmark.segment)) points[landmark.name] = landmark.p_BL;
+  for (const Joint& joint : skeleton.joints)
+    if (is(joint.parent)) points["joint " + joint.name] = joint.X_PJ.translation();
+  return points;
+}
+
+/// Root mean square distance of a segment's points from their middle, over the reference's; of the points that both
+/// have. NaN if that says nothing.
 double sizeRatio(const Skeleton& model, const Skeleton& reference, const std::string& segment) {
-  std::vector<Eigen::Vector3d> here, there;
-  for (const Landmark& landmark : model.landmarks) {
-    if (landmark.segment < 0 || model.segments[landmark.segment].name != segment) continue;
-    const auto same = std::ranges::find(reference.landmarks, landmark.name, &Landmark::name);
-    if (same == reference.landmarks.end() || reference.segments[same->segment].name != segment) continue;
-    here.push_back(landmark.p_BL);
-    there.push_back(same->p_BL);
+  const auto here = pointsOf(model, segment), there = pointsOf(reference, segment);
+  Eigen::Matrix3Xd p(3, 0), q(3, 0);
+  for (const auto& [name, point] : here) {
+    const auto same = there.find(name);
+    if (same == there.end()) continue;
+    p.conservativeResize(3, p.cols() + 1);
+    q.conservativeResize(3, q.cols() + 1);
+    p.rightCols(1) = point;
+    q.rightCols(1) = same->second;
   }
-  const auto spread = [](const std::vector<Eigen::Vector3d>& points) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& p : points) middle += p / static_cast<double>(points.size());
-    double sum = 0;
-    for (const auto& p : points) sum += (p - middle).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(points.size()));
+  const auto spread = [](const Eigen::Matrix3Xd& points) {
+    return (points.colwise() - points.rowwise().mean()).norm();
   };
-  const double ratio = here.size() < 2 ? kNaN : spread(here) / spread(there);
+  const double ratio = spread(p) / spread(q);
   return ratio > 0 && std::isfinite(ratio) ? ratio : kNaN;
 }
 
