@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -20,24 +21,34 @@ const MusculotendonUnit* findUnit(const Musculature& musculature, const std::str
   return found == musculature.units.end() ? nullptr : &*found;
 }
 
-/// Root mean square distance of a segment's landmarks from their middle, over those that both skeletons have.
+/// Points of a segment by name: its landmarks, its origin and the centres of the joints that hang on it.
+std::map<std::string, Eigen::Vector3d> pointsOf(const Skeleton& skeleton, const std::string& segment) {
+  const auto is = [&](int i) { return i >= 0 && skeleton.segments[static_cast<std::size_t>(i)].name == segment; };
+  std::map<std::string, Eigen::Vector3d> points{{"origin", Eigen::Vector3d::Zero()}};
+  for (const Landmark& landmark : skeleton.landmarks)
+    if (is(landmark.segment)) points[landmark.name] = landmark.p_BL;
+  for (const Joint& joint : skeleton.joints)
+    if (is(joint.parent)) points["joint " + joint.name] = joint.X_PJ.translation();
+  return points;
+}
+
+/// Root mean square distance of a segment's points from their middle, over the reference's; of the points that both
+/// have. NaN if that says nothing.
 double sizeRatio(const Skeleton& model, const Skeleton& reference, const std::string& segment) {
-  std::vector<Eigen::Vector3d> here, there;
-  for (const Landmark& landmark : model.landmarks) {
-    if (landmark.segment < 0 || model.segments[landmark.segment].name != segment) continue;
-    const auto same = std::ranges::find(reference.landmarks, landmark.name, &Landmark::name);
-    if (same == reference.landmarks.end() || reference.segments[same->segment].name != segment) continue;
-    here.push_back(landmark.p_BL);
-    there.push_back(same->p_BL);
+  const auto here = pointsOf(model, segment), there = pointsOf(reference, segment);
+  Eigen::Matrix3Xd p(3, 0), q(3, 0);
+  for (const auto& [name, point] : here) {
+    const auto same = there.find(name);
+    if (same == there.end()) continue;
+    p.conservativeResize(3, p.cols() + 1);
+    q.conservativeResize(3, q.cols() + 1);
+    p.rightCols(1) = point;
+    q.rightCols(1) = same->second;
   }
-  const auto spread = [](const std::vector<Eigen::Vector3d>& points) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& p : points) middle += p / static_cast<double>(points.size());
-    double sum = 0;
-    for (const auto& p : points) sum += (p - middle).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(points.size()));
+  const auto spread = [](const Eigen::Matrix3Xd& points) {
+    return (points.colwise() - points.rowwise().mean()).norm();
   };
-  const double ratio = here.size() < 2 ? kNaN : spread(here) / spread(there);
+  const double ratio = spread(p) / spread(q);
   return ratio > 0 && std::isfinite(ratio) ? ratio : kNaN;
 }
 
@@ -101,7 +112,12 @@ class Auditor {
                                    .reason = broken});
         continue;
       }
-      judgeUnit(audit_.units.back(), X_WB_reference);
+      const auto factor = model_.length_factors.find(unit.name);
+      const double changed_by = factor != model_.length_factors.end() && factor->second > 0 ? factor->second : 1;
+      MusculotendonUnit before = unit;
+      before.optimal_fiber_length_m /= changed_by;
+      before.tendon_slack_length_m /= changed_by;
+      judgeUnit(audit_.units.back(), figures(before, {}, scaleOf(unit, scales), X_WB), changed_by, X_WB_reference);
     }
     judgeWholeMuscles();
     return std::move(audit_);
@@ -138,20 +154,36 @@ class Auditor {
     return u;
   }
 
-  void judgeUnit(const AuditedUnit& u, const std::vector<RigidTransform>& X_WB_reference) {
+  /// What is judged of one unit, by quantity.
+  std::vector<std::pair<std::string, double>> quantities(const AuditedUnit& u, double reference_path_m) const {
     const double fiber_m = u.optimal_fiber_length_m / u.body_scale;
-    judge(u.name, u.name, "specific_tension_N_cm2", u.source_tension_N_cm2, 1);
-    judge(u.name, u.name, "force_of_published", u.max_isometric_force_N / u.published_force_N,
-          u.body_scale * u.body_scale);
-    judge(u.name, u.name, "optimal_fiber_length_cm", 100 * fiber_m, 1);
-    judge(u.name, u.name, "fiber_of_published", fiber_m / u.published_fiber_length_m, 1);
-    judge(u.name, u.name, "tendon_to_fiber_of_published",
-          u.tendon_to_fiber * u.published_fiber_length_m / u.published_tendon_length_m, 1);
-    judge(u.name, u.name, "pennation_deg", u.pennation_rad * 180 / std::numbers::pi, 1);
-    judge(u.name, u.name, "standing_fiber", u.standing_fiber, 1);
-    if (const auto* same = findUnit(reference_.musculature, u.name))
-      judge(u.name, u.name, "path_of_reference", u.path_length_m / u.body_scale / pathLength(*same, X_WB_reference),
-            1);
+    return {{"specific_tension_N_cm2", u.source_tension_N_cm2},
+            {"force_of_published", u.max_isometric_force_N / u.published_force_N},
+            {"optimal_fiber_length_cm", 100 * fiber_m},
+            {"fiber_of_published", fiber_m / u.published_fiber_length_m},
+            {"tendon_to_fiber_of_published",
+             u.tendon_to_fiber * u.published_fiber_length_m / u.published_tendon_length_m},
+            {"pennation_deg", u.pennation_rad * 180 / std::numbers::pi},
+            {"standing_fiber", u.standing_fiber},
+            {"path_of_reference", u.path_length_m / u.body_scale / reference_path_m}};
+  }
+
+  /// @param before figures before the examination changed the unit's length by `factor`.
+  void judgeUnit(const AuditedUnit& u, const AuditedUnit& before, double factor,
+                 const std::vector<RigidTransform>& X_WB_reference) {
+    const auto* same = findUnit(reference_.musculature, u.name);
+    const double reference_path_m = same ? pathLength(*same, X_WB_reference) : kNaN;
+    const auto values = quantities(u, reference_path_m), values_before = quantities(before, reference_path_m);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto& [quantity, value] = values[i];
+      const double growth = quantity == "force_of_published" ? u.body_scale * u.body_scale : 1;
+      AuditFinding* finding = judge(u.name, u.name, quantity, value, growth);
+      if (factor != 1 && finding && finding->verdict == AuditVerdict::Outlier &&
+          verdictOn(u.name, quantity, values_before[i].second, growth).first != AuditVerdict::Outlier) {
+        finding->verdict = AuditVerdict::Explained;
+        finding->reason = "the examination changed its length; before, it was within the range";
+      }
+    }
   }
 
   /// PCSA of whole muscles, a side at a time. F_max of a scaled body may have stayed or have grown with the area.
@@ -179,34 +211,40 @@ class Auditor {
     }
   }
 
+  /// Verdict on a value, and the reason if it is explained. There is a range for the quantity.
   /// @param growth by which the quantity may have grown with the body, or not: widens the range.
-  void judge(const std::string& unit, const std::string& label, const std::string& quantity, double value,
-             double growth) {
-    const auto* range = rangeFor(unit, quantity);
-    if (!range || std::isnan(value)) {
-      audit_.unjudged.push_back(unit + ": " + quantity);
-      return;
-    }
+  std::pair<AuditVerdict, std::string> verdictOn(const std::string& unit, const std::string& quantity, double value,
+                                                 double growth) const {
     const auto within = [&](double low, double high) {
       return value >= low * std::min(1.0, growth) && value <= high * std::max(1.0, growth);
     };
-    AuditFinding finding{.unit = label,
-                         .quantity = quantity,
-                         .value = value,
-                         .low = range->low,
-                         .high = range->high,
-                         .verified = range->verified,
-                         .source = range->source,
-                         .reason = {}};
-    if (within(range->low, range->high))
-      finding.verdict = AuditVerdict::Inside;
-    else
-      for (const auto& e : ranges_.explanations)
-        if (e.quantity == quantity && fits(e.units, unit) && within(e.low, e.high)) {
-          finding.verdict = AuditVerdict::Explained;
-          finding.reason = e.reason;
-        }
-    audit_.findings.push_back(std::move(finding));
+    const auto* range = rangeFor(unit, quantity);
+    if (within(range->low, range->high)) return {AuditVerdict::Inside, ""};
+    for (const auto& e : ranges_.explanations)
+      if (e.quantity == quantity && fits(e.units, unit) && within(e.low, e.high))
+        return {AuditVerdict::Explained, e.reason};
+    return {AuditVerdict::Outlier, ""};
+  }
+
+  /// @returns the finding; nullptr if there is no range or no value, which is noted.
+  AuditFinding* judge(const std::string& unit, const std::string& label, const std::string& quantity, double value,
+                      double growth) {
+    const auto* range = rangeFor(unit, quantity);
+    if (!range || std::isnan(value)) {
+      audit_.unjudged.push_back(unit + ": " + quantity);
+      return nullptr;
+    }
+    const auto [verdict, reason] = verdictOn(unit, quantity, value, growth);
+    audit_.findings.push_back({.unit = label,
+                               .quantity = quantity,
+                               .value = value,
+                               .low = range->low,
+                               .high = range->high,
+                               .verdict = verdict,
+                               .verified = range->verified,
+                               .source = range->source,
+                               .reason = reason});
+    return &audit_.findings.back();
   }
 
   const Model &model_, &reference_;

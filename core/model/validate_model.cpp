@@ -37,7 +37,7 @@ bool isSegment(const Skeleton& s, int index) {
 }
 
 /// A joint's coordinates: as many as its type has, in a row, about unit axes; the second axis of a sequence is normal
-/// to its neighbours, or its angles would not be unique.
+/// to the third (the first may be oblique, as the forearm's is).
 void checkCoordinates(const Skeleton& s, const Joint& joint, Findings& findings) {
   const int count = joint.type == JointType::Free ? 6 : joint.type == JointType::Ball ? 3 : 1;
   const int first = joint.first_coordinate, end = first + joint.coordinate_count;
@@ -48,9 +48,8 @@ void checkCoordinates(const Skeleton& s, const Joint& joint, Findings& findings)
     if (std::abs(c.axis.norm() - 1) > 1e-9) findings.add("coordinate_axis", c.name, "its axis is no unit vector");
     if (!(c.normal_min_rad < c.normal_max_rad)) findings.add("coordinate_limits", c.name, "its range is empty");
     const bool middle = count > 1 && i == end - 2;
-    if (middle && std::max(std::abs(c.axis.dot(s.coordinates[i - 1].axis)),
-                           std::abs(c.axis.dot(s.coordinates[i + 1].axis))) > 1e-6)
-      findings.add("coordinate_axis", c.name, "its axis is not normal to those before and after it");
+    if (middle && std::abs(c.axis.dot(s.coordinates[i + 1].axis)) > 1e-6)
+      findings.add("coordinate_axis", c.name, "its axis is not normal to the next one");
   }
 }
 

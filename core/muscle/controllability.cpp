@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
@@ -24,10 +25,24 @@ std::vector<int> jointCoordinates(const Skeleton& skeleton) {
   return coordinates;
 }
 
+/// Where the middle angle of a sequence is 90 deg, two clinical axes coincide and a torque about one of them alone
+/// does not exist, whatever muscles there are: such a joint is looked at 1 deg beside.
+Posture besideGimbalLimit(const Skeleton& skeleton, const Posture& posture) {
+  constexpr double kRight_rad = std::numbers::pi / 2, kBeside_rad = std::numbers::pi / 180;
+  Eigen::VectorXd clinical = clinicalFromPosture(skeleton, posture);
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.type != JointType::Ball) continue;
+    double& middle = clinical[joint.first_coordinate + 1];
+    if (std::abs(std::abs(middle) - kRight_rad) < kBeside_rad)
+      middle = std::copysign(kRight_rad - kBeside_rad, middle);
+  }
+  return postureFromClinical(skeleton, clinical);
+}
+
 /// R [N m]: coordinates x units.
 MatrixXd torqueOfActivation(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture,
                             const std::vector<int>& coordinates) {
-  const Kinematics clinical = clinicalKinematics(skeleton, posture);
+  const Kinematics clinical = clinicalKinematics(skeleton, besideGimbalLimit(skeleton, posture));
   MatrixXd R(static_cast<Index>(coordinates.size()), static_cast<Index>(musculature.units.size()));
   for (Index j = 0; j < R.cols(); ++j) {
     const MusculotendonUnit& unit = musculature.units[static_cast<std::size_t>(j)];

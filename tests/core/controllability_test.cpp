@@ -29,6 +29,26 @@ class Controllability : public testing::Test {
       text += " " + std::to_string(std::lround(clinical[joint.first_coordinate + i]));
     return text + " deg";
   }
+  void expectBothWaysIn(const std::vector<Posture>& postures) const {
+    ASSERT_EQ(postures.size(), 50u);
+    std::map<std::string, int> missed;  // by coordinate without side, and direction
+    for (const Posture& posture : postures)
+      for (const auto& c : controllable(skeleton_, musculature_, posture))
+        for (const bool up : {true, false}) {
+          const double residual = (up ? c.increasing : c.decreasing).residual;
+          if (residual < kReached) continue;
+          ++missed[std::string{withoutSide(nameOf(c.coordinate))} + (up ? " +" : " -")];
+          if (residual > 0.5)  // the direction that is missing, not one that goes with it
+            std::printf("%s %c: %.0f %% missing, %s\n", nameOf(c.coordinate).c_str(), up ? '+' : '-', 100 * residual,
+                        placeOf(c.coordinate, posture).c_str());
+        }
+    int count = 0;
+    for (const auto& [direction, times] : missed) {
+      ADD_FAILURE() << direction << " is not reached in " << times << " of 50 postures (both sides counted)";
+      count += times;
+    }
+    std::printf("directions reached: %d of %d\n", 50 * 88 - count, 50 * 88);
+  }
   const Skeleton skeleton_ = loadReferenceSkeleton(test::resourceDir());
   const Musculature musculature_ = loadMusculature(test::resourceDir(), skeleton_);
 };
@@ -55,25 +75,16 @@ TEST_F(Controllability, EveryCoordinateIsTurnedBothWaysWhenStanding) {
 }
 
 TEST_F(Controllability, EveryCoordinateIsTurnedBothWaysInFiftyValidPostures) {
-  const auto postures = test::validPostures(skeleton_, musculature_, 50, 2026);
-  ASSERT_EQ(postures.size(), 50u);
-  std::map<std::string, int> missed;  // by coordinate without side, and direction
-  for (const Posture& posture : postures)
-    for (const auto& c : controllable(skeleton_, musculature_, posture))
-      for (const bool up : {true, false}) {
-        const double residual = (up ? c.increasing : c.decreasing).residual;
-        if (residual < kReached) continue;
-        ++missed[std::string{withoutSide(nameOf(c.coordinate))} + (up ? " +" : " -")];
-        if (residual > 0.5)  // the direction that is missing, not one that goes with it
-          std::printf("%s %c: %.0f %% missing, %s\n", nameOf(c.coordinate).c_str(), up ? '+' : '-', 100 * residual,
-                      placeOf(c.coordinate, posture).c_str());
-      }
-  for (const auto& [direction, count] : missed)
-    ADD_FAILURE() << direction << " is not reached in " << count << " of 50 postures (both sides counted)";
+  expectBothWaysIn(test::validPostures(skeleton_, musculature_, 50, 2026));
 }
 
-/// A unit's torque alone is known: the head nods forwards by longus capitis only, and what nods it without turning
-/// the neck is what both give together.
+/// Joints move less by their own muscles than by an examiner's hands: at the end of the passive range straight lines
+/// of action only lead back. Here every angle is seven tenths of what it is above.
+TEST_F(Controllability, EveryCoordinateIsTurnedBothWaysInFiftyPosturesOfTheActiveRange) {
+  expectBothWaysIn(test::validPostures(skeleton_, musculature_, 50, 2026, 0.7));
+}
+
+/// The head nods forwards by longus capitis only.
 TEST_F(Controllability, SaysWhatIsMissing) {
   Musculature without;
   for (const auto& unit : musculature_.units)

@@ -48,5 +48,14 @@ TEST_F(CsvTableTest, NamesWhatIsWrongWithTheFile) {
   EXPECT_THAT(complaint(""), HasSubstr("header"));
 }
 
+TEST_F(CsvTableTest, ReadsTablesOfOthersWithoutAFormatLine) {
+  writeFileAtomically(folder_ / "t.csv", "name,x_m\n# remark\na,1\n");
+  const CsvTable table{folder_ / "t.csv", {"name"}};
+  EXPECT_EQ(table.number(0, "x_m"), 1);
+  EXPECT_TRUE(table.hasColumn("x_m"));
+  EXPECT_FALSE(table.hasColumn("y_m"));
+  EXPECT_THROW((CsvTable{folder_ / "t.csv", {"y_m"}}), InputError);
+}
+
 }  // namespace
 }  // namespace sinew

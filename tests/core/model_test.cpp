@@ -254,7 +254,7 @@ TEST(ValidateModel, FindsWhatIsBroken) {
       broken([](Model& m) { std::swap(m.musculature.units[3].path.front(), m.musculature.units[3].path.back()); }),
       Contains("muscle_path"));
   EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[7].axis *= 1.01; }), Contains("coordinate_axis"));
-  EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[7].axis = m.skeleton.coordinates[6].axis; }),
+  EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[7].axis = m.skeleton.coordinates[8].axis; }),
               Contains("coordinate_axis"));
   EXPECT_THAT(broken([](Model& m) { m.skeleton.coordinates[9].normal_max_rad = -1; }), Contains("coordinate_limits"));
   EXPECT_THAT(broken([](Model& m) { m.skeleton.joints[2].coordinate_count = 2; }), Contains("joint_coordinates"));
