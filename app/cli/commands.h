@@ -34,5 +34,7 @@ void addMomentArmsCommand(CLI::App& parent, Commands& commands);  // model momen
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addRomTestsCommand(Commands& commands);
+void addPosesCommands(Commands& commands);
 
 }  // namespace sinew
