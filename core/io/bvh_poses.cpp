@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/rom/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -75,6 +74,11 @@ int jointNamed(const BvhMotion& motion, const std::vector<std::string>& names) {
 
 Eigen::Matrix3d turnBetween(const Eigen::Matrix3d& R_WA, const Eigen::Matrix3d& R_WB) {
   return R_WB * R_WA.transpose();
+}
+
+/// What a rig at rest looks like: arms sideways from a girdle that hangs as in standing.
+Posture restOfRigs(const Skeleton& skeleton) {
+  return postureFromDegrees(skeleton, {{"shoulder_adduction_r", -90}, {"shoulder_adduction_l", -90}});
 }
 
 /// What the solver aims at in one frame.
@@ -239,7 +243,7 @@ class Mapping {
   /// Our T turned until its limbs lie as those of the file's rest pose: the turns that belong to no turns there.
   void meetRestPose(const MotionImportOptions& options) {
     Targets t = directions(bvhPoses(motion_, -1));
-    const Posture T = restingPostures(skeleton_).back();
+    const Posture T = restOfRigs(skeleton_);
     const auto X_T = segmentPoses(skeleton_, T);
     for (const Role& role : roles()) {
       const double stiff = role.turn_weight >= 0.3 ? 1 : 0.05;  // limbs give way to their directions
@@ -308,7 +312,7 @@ BvhMotion motionFromPostures(const Skeleton& skeleton, const std::vector<Posture
   // W to the file's world: x left = -Z, y up = Y, z forward = X.
   Eigen::Matrix3d R_FW;
   R_FW << 0, 0, -1, 0, 1, 0, 1, 0, 0;
-  const auto X_rest = segmentPoses(skeleton, restingPostures(skeleton).back());
+  const auto X_rest = segmentPoses(skeleton, restOfRigs(skeleton));
   BvhMotion motion{.frame_time_s = frame_time_s};
   std::vector<int> joint_of(skeleton.segments.size(), -1), segment_of;
   int channels = 0;
