@@ -94,6 +94,8 @@ void addCommands(Commands& commands) {
   addRomCommand(commands);
   addExportCommand(commands);
   addBenchCommand(commands);
+  addRomTestsCommand(commands);
+  addPosesCommands(commands);
   // Listed in the help; app/main.cpp opens the window.
   auto& window =
       addCommand(commands.app, "window", "open the window, with a case if one is named", "sinew window mycase");

@@ -36,5 +36,7 @@ void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
 void addExportCommand(Commands& commands);
 void addBenchCommand(Commands& commands);
+void addRomTestsCommand(Commands& commands);
+void addPosesCommands(Commands& commands);
 
 }  // namespace sinew

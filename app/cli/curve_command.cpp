@@ -107,7 +107,7 @@ void addCurveCommand(Commands& commands) {
   auto& command =
       addCommand(commands.app, "curve", "length, moment arm and force of a muscle over a joint motion",
                  "sinew curve reference --muscle soleus_medial_r --motion ankle_dorsiflexion -o curve.svg");
-  command.add_option("MODEL", o->model, "model file, or the word reference")->required();
+  command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
   command.add_option("--muscle", o->muscle, "musculotendon unit")->required();
   command.add_option("--motion", o->motion, "joint motion; without a side that of the muscle")->required();
   command.add_option("-o,--output", o->output, "file: .csv, .json, .svg or .png");

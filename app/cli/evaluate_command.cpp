@@ -173,7 +173,7 @@ void addEvaluateCommand(Commands& commands) {
       "  postures.json: [{\"name\": \"squat\", \"coordinates_deg\": {\"knee_flexion_r\": 90}}]; what is not named is "
       "0,\n"
       "  translations in metres. A moment arm is positive if the muscle increases the coordinate.");
-  command.add_option("MODEL", o->model, "model file, or the word reference")->required();
+  command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
   command.add_option("--postures", o->postures, "JSON file of postures")->required();
   command
       .add_option("--what", o->what,

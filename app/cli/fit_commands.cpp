@@ -94,7 +94,7 @@ void addExam(Commands& commands) {
       addCommand(commands.app, "exam", "muscle lengths that make the simulated examination meet the measured one",
                  "sinew exam reference --exam exam.json --mass-kg 42 -o patient.json --json\n"
                  "  Without --exam: what the simulated examination of the model gives.");
-  command.add_option("MODEL", o->model, "model file, or the word reference")->required();
+  command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
   command.add_option("--exam", o->exam, "physical examination (JSON)");
   command.add_option("--mass-kg", o->mass_kg, "body mass: the examiner's torque grows with it")
       ->capture_default_str();

@@ -41,7 +41,7 @@ void addInfo(CLI::App& parent, Commands& commands) {
   auto name = std::make_shared<std::string>();
   auto& command = addCommand(parent, "info", "counts of segments, joints, coordinates, muscles",
                              "sinew model info reference --json");
-  command.add_option("MODEL", *name, "model file, or the word reference")->required();
+  command.add_option("MODEL", *name, "model file, or reference, reference:athlete")->required();
   command.callback([&commands, name] {
     commands.chosen = [&session = commands.session, name] {
       const Json info = modelInfo(session.model(*name));
@@ -67,7 +67,7 @@ void addValidate(CLI::App& parent, Commands& commands) {
   auto name = std::make_shared<std::string>();
   auto& command = addCommand(parent, "validate", "read a model strictly and check its invariants; 2 if any is broken",
                              "sinew model validate patient.json");
-  command.add_option("MODEL", *name, "model file, or the word reference")->required();
+  command.add_option("MODEL", *name, "model file, or reference, reference:athlete")->required();
   command.callback([&commands, name] {
     commands.chosen = [&session = commands.session, name] {
       const Model model = session.model(*name);

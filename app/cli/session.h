@@ -41,7 +41,7 @@ class Session {
   /// @throws InputError naming all places if there is none.
   const std::filesystem::path& resourceDir();
   const Model& reference();
-  /// "reference" or a model file.
+  /// "reference", "reference:athlete" or a model file.
   Model model(const std::string& name_or_file);
   const ReportWriter& reportWriter() const { return write_report_; }
 

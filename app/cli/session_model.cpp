@@ -17,7 +17,9 @@ const Model& Session::reference() {
 }
 
 Model Session::model(const std::string& name_or_file) {
-  return name_or_file == "reference" ? reference() : loadModel(name_or_file, reference());
+  if (const auto preset = presetOf(name_or_file))
+    return name_or_file == reference().name ? reference() : loadReferenceModel(resourceDir(), *preset);
+  return loadModel(name_or_file, reference());
 }
 
 }  // namespace sinew

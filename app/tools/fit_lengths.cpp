@@ -1,19 +1,43 @@
-// sinew-fit-lengths RESOURCE_DIR OUT.csv: fits fibre and tendon lengths of the reference to its skeleton and paths.
-// Run after a change of muscles.csv, muscle_paths.csv or the skeleton; the result belongs to
-// resources/muscles/reference_lengths.csv. A test compares the stored file with a fresh fit.
+// sinew-fit-lengths RESOURCE_DIR OUT_DIR [PRESET]: fibre and tendon lengths of the presets, fitted to the skeleton
+// and the paths. Writes OUT_DIR/reference_lengths*.csv. Run with OUT_DIR = resources/muscles after a change of
+// muscles.csv, muscle_paths.csv, the skeleton, the norms or a preset (docs/methods/range_of_motion.md). A test
+// compares the stored files with a fresh fit.
 #include <cstdio>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/rom/length_estimation.h"
+#include "core/muscle/load_musculature.h"
+#include "core/rom/fit_preset.h"
+
+namespace {
+
+void fitAndWrite(const std::filesystem::path& resources, const std::filesystem::path& out, const std::string& name) {
+  using namespace sinew;
+  const Skeleton skeleton = loadReferenceSkeleton(resources);
+  const Musculature published = loadPublishedMusculature(resources, skeleton);
+  const RomPreset preset = loadRomPreset(resources, name, skeleton);
+  const PresetFit fit = fitPreset(skeleton, published, preset, loadRomNorms(resources, skeleton));
+  std::printf("%s: %d rounds over the tests\n", name.c_str(), fit.rounds);
+  std::size_t reading = 0;
+  for (const RomBound& bound : preset.bounds) {
+    if (bound.test.empty()) continue;
+    const RomReading& r = fit.readings[reading++];
+    std::printf("  %-20s target %7.1f  reads %7.1f  %6.1f N m  %s\n", r.test.c_str(), bound.target_deg, r.angle_deg,
+                r.moment_Nm, r.limited_by.empty() ? "" : r.limited_by.front().c_str());
+  }
+  writeFileAtomically(out / lengthsFile(name), lengthsCsv(fit.lengths, name + ".json"));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: %s RESOURCE_DIR OUT.csv\n", argv[0]);
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: %s RESOURCE_DIR OUT_DIR [PRESET]\n", argv[0]);
     return 2;
   }
   try {
-    sinew::writeFileAtomically(argv[2], sinew::referenceLengthsCsv(argv[1]));
+    for (const auto& name : sinew::romPresetNames())
+      if (argc == 3 || name == argv[3]) fitAndWrite(argv[1], argv[2], name);
   } catch (const sinew::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
@@ -31,9 +33,13 @@ struct Model {
   std::map<std::string, double> length_factors;
 };
 
-/// The reference model from the resource folder (skeleton, landmarks, muscles, bone meshes).
+/// The reference model from the resource folder (skeleton, landmarks, muscles, bone meshes) with the flexibility of a
+/// preset: joint stops and muscle lengths (core/rom/rom_preset.h). Its name is "reference" or "reference:athlete".
 /// @throws InputError: file, entry, expected, found.
-Model loadReferenceModel(const std::filesystem::path& resource_dir);
+Model loadReferenceModel(const std::filesystem::path& resource_dir, std::string_view preset = "average-adult");
+
+/// Preset that a model's name asks for: "reference" and "reference:PRESET"; nullopt for the name of a file.
+std::optional<std::string> presetOf(const std::string& model_name);
 
 /// The model of a shape: bones and joints deformed, path points carried by the same field ("naive anchoring": each
 /// anchor moves with its bone), fibre and tendon lengths scaled by the ratio of path lengths at the zero posture;
@@ -44,7 +50,7 @@ Model deformedModel(const Model& reference, const ShapeParameters& shape);
 void saveModel(const Model& model, const std::filesystem::path& file);
 /// `reference` supplies the bones. @throws InputError: where, field, expected, found.
 Model loadModel(const std::filesystem::path& file, const Model& reference);
-/// "reference" or a file.
+/// "reference", "reference:athlete" or a file.
 Model loadModelByName(const std::string& name_or_file, const std::filesystem::path& resource_dir);
 
 /// Broken invariants and doubts: weights, mirror symmetry of the reference, positive parameters, spanning joints, ...

@@ -44,9 +44,8 @@ Model loadModel(const std::filesystem::path& file, const Model& reference) {
 }
 
 Model loadModelByName(const std::string& name_or_file, const std::filesystem::path& resource_dir) {
-  Model reference = loadReferenceModel(resource_dir);
-  if (name_or_file == "reference") return reference;
-  return loadModel(name_or_file, reference);
+  if (const auto preset = presetOf(name_or_file)) return loadReferenceModel(resource_dir, *preset);
+  return loadModel(name_or_file, loadReferenceModel(resource_dir));
 }
 
 }  // namespace sinew

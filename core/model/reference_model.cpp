@@ -1,15 +1,25 @@
 #include "core/model/bone_meshes.h"
 #include "core/model/model.h"
 #include "core/muscle/load_musculature.h"
+#include "core/rom/rom_preset.h"
 
 namespace sinew {
 
-Model loadReferenceModel(const std::filesystem::path& resource_dir) {
+Model loadReferenceModel(const std::filesystem::path& resource_dir, std::string_view preset) {
   Model model;
+  if (preset != kDefaultPreset) model.name += ":" + std::string{preset};
   model.skeleton = loadReferenceSkeleton(resource_dir);
-  model.musculature = loadMusculature(resource_dir, model.skeleton);
+  setStops(model.skeleton, loadRomPreset(resource_dir, preset, model.skeleton));
+  model.musculature = loadMusculature(resource_dir, model.skeleton, preset);
   model.bones = loadBoneMeshes(resource_dir, model.skeleton);
   return model;
+}
+
+std::optional<std::string> presetOf(const std::string& model_name) {
+  constexpr std::string_view kReference = "reference";
+  if (model_name == kReference) return std::string{kDefaultPreset};
+  if (!model_name.starts_with(std::string{kReference} + ":")) return std::nullopt;
+  return model_name.substr(kReference.size() + 1);
 }
 
 }  // namespace sinew

@@ -47,11 +47,12 @@ Json coordinateToJson(const Coordinate& c) {
   return {{"name", c.name},
           {"axis", vectorToJson(c.axis)},
           {std::string{"normal"} + unit, range(c.normal_min_rad, c.normal_max_rad)},
-          {std::string{"athlete"} + unit, range(c.athlete_min_rad, c.athlete_max_rad)}};
+          {std::string{"athlete"} + unit, range(c.athlete_min_rad, c.athlete_max_rad)},
+          {std::string{"stop"} + unit, range(c.stop_min_rad, c.stop_max_rad)}};
 }
 
 Coordinate coordinateFromJson(const JsonReader& json, int joint) {
-  json.allowOnly({"name", "axis", "normal_rad", "normal_m", "athlete_rad", "athlete_m"});
+  json.allowOnly({"name", "axis", "normal_rad", "normal_m", "athlete_rad", "athlete_m", "stop_rad", "stop_m"});
   Coordinate c;
   c.name = json["name"].text();
   c.joint = joint;
@@ -60,9 +61,14 @@ Coordinate coordinateFromJson(const JsonReader& json, int joint) {
   c.translational = json.find("normal_m").has_value();
   const auto normal = json[c.translational ? "normal_m" : "normal_rad"].numbers(2);
   const auto athlete = json[c.translational ? "athlete_m" : "athlete_rad"].numbers(2);
-  if (normal[0] > normal[1] || athlete[0] > athlete[1]) json.fail("limits in the order lower, upper");
+  // Files from before presets have no stops of their own: the widest ones.
+  const auto stop_json = json.find(c.translational ? "stop_m" : "stop_rad");
+  const auto stop = stop_json ? stop_json->numbers(2) : athlete;
+  if (normal[0] > normal[1] || athlete[0] > athlete[1] || stop[0] > stop[1])
+    json.fail("limits in the order lower, upper");
   c.normal_min_rad = normal[0], c.normal_max_rad = normal[1];
   c.athlete_min_rad = athlete[0], c.athlete_max_rad = athlete[1];
+  c.stop_min_rad = stop[0], c.stop_max_rad = stop[1];
   return c;
 }
 

@@ -8,21 +8,6 @@
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
-namespace {
-
-std::vector<std::string> beyondEnvelope(const Skeleton& skeleton, const Posture& posture) {
-  constexpr double kTolerance_rad = 1e-9;  // a posture typed in degrees may sit on the limit
-  const Eigen::VectorXd clinical = clinicalFromPosture(skeleton, posture);
-  std::vector<std::string> names;
-  for (int i = 0; i < skeleton.coordinateCount(); ++i) {
-    const Coordinate& c = skeleton.coordinates[i];
-    if (clinical[i] < c.athlete_min_rad - kTolerance_rad || clinical[i] > c.athlete_max_rad + kTolerance_rad)
-      names.push_back(c.name);
-  }
-  return names;
-}
-
-}  // namespace
 
 PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture) {
   const Kinematics clinical = clinicalKinematics(skeleton, posture);
@@ -39,12 +24,18 @@ PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& m
     const FiberState state = equilibrium(unit, e.length_m[i], 0);
     e.normalized_fiber_length[i] = state.normalized_fiber_length;
     e.passive_force_N[i] = state.force_N;
-    e.margins.push_back({static_cast<int>(i), longestLength_m(unit) - e.length_m[i]});
   }
   e.passive_torque = e.moment_arm_m.transpose() * e.passive_force_N;
+  const auto constraints = constraintMargins(skeleton, musculature, posture);
+  for (const ConstraintMargin& c : constraints) {
+    if (c.kind == ConstraintKind::MuscleLength) e.margins.push_back({c.index, c.margin});
+    if (c.kind == ConstraintKind::JointStop && !c.holds())
+      e.coordinates_beyond_envelope.push_back(skeleton.coordinates[static_cast<std::size_t>(c.index)].name);
+  }
   std::ranges::stable_sort(e.margins, {}, &LengthMargin::margin_m);
-  e.coordinates_beyond_envelope = beyondEnvelope(skeleton, posture);
-  e.valid = e.coordinates_beyond_envelope.empty() && (e.margins.empty() || e.margins.front().margin_m >= 0);
+  const Validity v = validityOf(constraints);
+  e.valid = v.valid;
+  e.first_to_fail = v.first;
   return e;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/muscle/musculature.h"
+#include "core/rom/validity.h"
 #include "core/skeleton/joint_motion.h"
 #include "core/skeleton/kinematics.h"
 
@@ -24,9 +25,10 @@ struct PostureEvaluation {
   Eigen::VectorXd normalized_fiber_length;  ///< passive equilibrium, by unit
   Eigen::VectorXd passive_force_N;          ///< along the tendon, by unit
   Eigen::VectorXd passive_torque;           ///< sum over the units, by clinical coordinate [N m; N for translations]
-  bool valid = false;  ///< no unit beyond its longest length, no coordinate beyond its athlete envelope
-  std::vector<LengthMargin> margins;  ///< smallest first
-  std::vector<std::string> coordinates_beyond_envelope;
+  bool valid = false;                       ///< every constraint holds (core/rom/validity.h)
+  ConstraintMargin first_to_fail;           ///< the constraint that is violated most, or would be the next
+  std::vector<LengthMargin> margins;        ///< smallest first
+  std::vector<std::string> coordinates_beyond_envelope;  ///< beyond the body's own stops
 };
 
 /// Everything at one posture.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/csv_table.h"
@@ -121,8 +122,8 @@ void readPaths(const path& folder, const Skeleton& skeleton, const std::vector<R
   }
 }
 
-void readFittedLengths(const path& folder, std::map<std::string, MusculotendonUnit>& units) {
-  const CsvTable table{folder / "reference_lengths.csv",
+void readFittedLengths(const path& folder, std::string_view preset, std::map<std::string, MusculotendonUnit>& units) {
+  const CsvTable table{folder / lengthsFile(preset),
                        "sinew.reference_lengths",
                        1,
                        {"muscle", "optimal_fiber_length_m", "tendon_slack_length_m"}};
@@ -136,7 +137,7 @@ void readFittedLengths(const path& folder, std::map<std::string, MusculotendonUn
     unit->second.tendon_slack_length_m = numberIn(table, row, "tendon_slack_length_m", 0, kLongest_m);
   }
   if (seen.size() != units.size())
-    throw InputError{{"reference_lengths.csv", "rows", std::to_string(units.size()), std::to_string(seen.size())}};
+    throw InputError{{lengthsFile(preset), "rows", std::to_string(units.size()), std::to_string(seen.size())}};
 }
 
 MusculotendonUnit mirroredUnit(MusculotendonUnit unit, const Skeleton& skeleton,
@@ -153,13 +154,14 @@ MusculotendonUnit mirroredUnit(MusculotendonUnit unit, const Skeleton& skeleton,
   return unit;
 }
 
-Musculature load(const path& resource_dir, const Skeleton& skeleton, bool fitted) {
+/// Without `preset` the lengths are the published ones.
+Musculature load(const path& resource_dir, const Skeleton& skeleton, std::optional<std::string_view> preset) {
   const path folder = resource_dir / "muscles";
   const auto X_WB = segmentPoses(skeleton, zeroPosture(skeleton));
   std::vector<std::string> order;
   auto units = readPhysiology(folder, order);
   readPaths(folder, skeleton, X_WB, units);
-  if (fitted) readFittedLengths(folder, units);
+  if (preset) readFittedLengths(folder, *preset, units);
   Musculature musculature;
   for (const auto& name : order) musculature.units.push_back(units.at(name));
   for (const auto& name : order) musculature.units.push_back(mirroredUnit(units.at(name), skeleton, X_WB));
@@ -168,12 +170,16 @@ Musculature load(const path& resource_dir, const Skeleton& skeleton, bool fitted
 
 }  // namespace
 
-Musculature loadMusculature(const path& resource_dir, const Skeleton& skeleton) {
-  return load(resource_dir, skeleton, true);
+std::string lengthsFile(std::string_view preset) {
+  return preset == "average-adult" ? "reference_lengths.csv" : "reference_lengths_" + std::string{preset} + ".csv";
+}
+
+Musculature loadMusculature(const path& resource_dir, const Skeleton& skeleton, std::string_view preset) {
+  return load(resource_dir, skeleton, preset);
 }
 
 Musculature loadPublishedMusculature(const path& resource_dir, const Skeleton& skeleton) {
-  return load(resource_dir, skeleton, false);
+  return load(resource_dir, skeleton, std::nullopt);
 }
 
 }  // namespace sinew

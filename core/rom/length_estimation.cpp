@@ -1,13 +1,12 @@
 #include "core/rom/length_estimation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/error.h"
 #include "core/muscle/hill.h"
-#include "core/muscle/load_musculature.h"
 #include "core/muscle/muscle_path.h"
-#include "core/rom/pose_sample.h"
 
 namespace sinew {
 namespace {
@@ -26,6 +25,7 @@ double passiveForceShare(const MusculotendonUnit& unit, double path_m) {
 
 /// Smallest scale >= `from` at which the unit rests at this path length.
 double relaxedScale(const MusculotendonUnit& unit, double path_m, double from, double allowed_share) {
+  if (passiveForceShare(scaled(unit, from), path_m) <= allowed_share) return from;
   double low = from, high = from;
   while (passiveForceShare(scaled(unit, high), path_m) > allowed_share) high *= 1.5;
   while (high - low > 1e-9 * high) {
@@ -76,44 +76,54 @@ LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longe
 }  // namespace
 
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
-                                            std::span<const Posture> postures, std::span<const Posture> resting,
+                                            const PathLimits& limits, std::span<const Posture> resting,
                                             const LengthEstimationOptions& options) {
-  require(!postures.empty() && !resting.empty(), "estimateLengths: postures are given");
-  std::vector<LengthEstimate> estimates(musculature.units.size());
-  for (const Posture& q : postures) {
-    const Poses X_WB = segmentPoses(skeleton, q);
-    for (std::size_t i = 0; i < estimates.size(); ++i)
-      estimates[i].longest_path_m = std::max(estimates[i].longest_path_m, pathLength(musculature.units[i], X_WB));
-  }
+  require(!resting.empty(), "estimateLengths: resting postures are given");
   std::vector<Poses> resting_poses;
   for (const Posture& q : resting) resting_poses.push_back(segmentPoses(skeleton, q));
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const MusculotendonUnit& unit = musculature.units[i];
+  std::vector<LengthEstimate> estimates;
+  for (const MusculotendonUnit& unit : musculature.units) {
     std::vector<double> resting_paths_m;
     for (const Poses& X_WB : resting_poses) resting_paths_m.push_back(pathLength(unit, X_WB));
-    estimates[i] = fittedWithUsableFiber(unit, estimates[i].longest_path_m, resting_paths_m, options);
+    const auto i = static_cast<Eigen::Index>(estimates.size());
+    estimates.push_back(fittedWithUsableFiber(unit, limits.longest_m[i], resting_paths_m, options));
+    estimates.back().shortest_path_m = limits.shortest_m[i];
   }
   return estimates;
 }
 
-std::string referenceLengthsCsv(const std::filesystem::path& resource_dir) {
-  const Skeleton skeleton = loadReferenceSkeleton(resource_dir);
-  const Musculature musculature = loadPublishedMusculature(resource_dir, skeleton);
-  const auto estimates = estimateLengths(skeleton, musculature, normalPostures(skeleton), restingPostures(skeleton));
+double relaxingFactor(const MusculotendonUnit& unit, double path_m, double share) {
+  return relaxedScale(unit, path_m, 1, share);
+}
+
+double normalizedFiber(const MusculotendonUnit& unit, const std::vector<RigidTransform>& X_WB) {
+  return equilibrium(unit, pathLength(unit, X_WB), 0).normalized_fiber_length;
+}
+
+Musculature withLengths(Musculature musculature, const std::vector<LengthEstimate>& estimates) {
+  require(estimates.size() == musculature.units.size(), "withLengths: one estimate a unit");
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    musculature.units[i].optimal_fiber_length_m = estimates[i].optimal_fiber_length_m;
+    musculature.units[i].tendon_slack_length_m = estimates[i].tendon_slack_length_m;
+  }
+  return musculature;
+}
+
+std::string lengthsCsv(const std::vector<LengthEstimate>& estimates, const std::string& made_from) {
   std::string csv =
-      "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv and the "
-      "skeleton: longest path over normal postures, published fibre : tendon ratio, no pull at rest\n"
-      "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,scale_of_published,tendon_share_of_"
-      "published,relaxed,"
-      "standing_normalized_fiber_length\n";
-  const std::size_t half = estimates.size() / 2;  // right units, then left ones in the same order
-  for (std::size_t i = 0; i < half; ++i) {
-    // The trunk bends to both sides, in the sample not quite alike: the side that needs more decides.
-    const LengthEstimate& e = estimates[estimates[i].scale >= estimates[half + i].scale ? i : half + i];
+      "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv, the "
+      "skeleton and " +
+      made_from +
+      ": longest path over the pose set, published fibre : tendon ratio, no pull at rest\n"
+      "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,shortest_path_m,scale_of_published,"
+      "tendon_share_of_published,relaxed,standing_normalized_fiber_length\n";
+  const auto up = [](double length_m) { return std::ceil(length_m * 1e7) * 1e-7; };
+  for (const LengthEstimate& e : estimates) {
+    if (!e.unit.ends_with("_r")) continue;
     char line[256];
-    std::snprintf(line, sizeof line, "%s,%.5f,%.5f,%.5f,%.3f,%.3f,%s,%.3f\n", estimates[i].unit.c_str(),
-                  e.optimal_fiber_length_m, e.tendon_slack_length_m, e.longest_path_m, e.scale, e.ratio,
-                  e.relaxed ? "yes" : "no", e.resting_normalized_fiber);
+    std::snprintf(line, sizeof line, "%s,%.7f,%.7f,%.5f,%.5f,%.3f,%.3f,%s,%.3f\n", e.unit.c_str(),
+                  up(e.optimal_fiber_length_m), up(e.tendon_slack_length_m), e.longest_path_m, e.shortest_path_m,
+                  e.scale, e.ratio, e.relaxed ? "yes" : "no", e.resting_normalized_fiber);
     csv += line;
   }
   return csv;

@@ -1,10 +1,10 @@
 #pragma once
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/muscle/musculature.h"
+#include "core/rom/longest_paths.h"
 #include "core/skeleton/kinematics.h"
 
 namespace sinew {
@@ -12,17 +12,17 @@ namespace sinew {
 // Fibre and tendon lengths from what the body can do (Ryu et al., Length estimation): the longest length of a unit,
 // 1.6 l0 + 1.03 l_slack, is the longest path over all postures; the published fibre : tendon ratio is kept. A path
 // that is long at rest too would then pull at rest; such a unit is lengthened, ratio kept, until its passive force in
-// every resting posture is below a small share of F_max. See docs/methods/muscle_model.md.
+// every resting posture is below a small share of F_max. See docs/methods/range_of_motion.md.
 
 struct LengthEstimate {
   std::string unit;
   double optimal_fiber_length_m = 0;
   double tendon_slack_length_m = 0;
-  double longest_path_m = 0;            ///< over the postures
-  double scale = 1;                     ///< of the given fibre length
-  double ratio = 1;                     ///< of the given ratio tendon : fibre
-  bool relaxed = false;                 ///< lengthened for a resting posture
-  double resting_normalized_fiber = 0;  ///< in the first resting posture
+  double longest_path_m = 0, shortest_path_m = 0;  ///< over the postures
+  double scale = 1;                                ///< of the given fibre length
+  double ratio = 1;                                ///< of the given ratio tendon : fibre
+  bool relaxed = false;                            ///< lengthened for a resting posture
+  double resting_normalized_fiber = 0;             ///< in the first resting posture
 };
 
 struct LengthEstimationOptions {
@@ -31,12 +31,24 @@ struct LengthEstimationOptions {
   double smallest_ratio = 0.7;          ///< but no more than this (the 30 % of Ryu et al., fibre : tendon ratio)
 };
 
-/// One estimate a unit, in the order of `musculature`; postures and resting postures may not be empty.
+/// One estimate a unit, in the order of `musculature`; `limits` are its paths over a pose set, `resting` the key
+/// postures (at least one).
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
-                                            std::span<const Posture> postures, std::span<const Posture> resting,
+                                            const PathLimits& limits, std::span<const Posture> resting,
                                             const LengthEstimationOptions& options = {});
 
-/// The estimates of the reference's right side, as muscles/reference_lengths.csv holds them.
-std::string referenceLengthsCsv(const std::filesystem::path& resource_dir);
+/// `musculature` with these lengths.
+Musculature withLengths(Musculature musculature, const std::vector<LengthEstimate>& estimates);
+
+/// Smallest factor >= 1 on fibre and tendon with which the unit's passive force at this path length is at most
+/// `share` of F_max.
+double relaxingFactor(const MusculotendonUnit& unit, double path_m, double share);
+
+/// Passive fibre length in optimal lengths.
+double normalizedFiber(const MusculotendonUnit& unit, const std::vector<RigidTransform>& X_WB);
+
+/// The estimates of the right side, as muscles/reference_lengths*.csv hold them; lengths rounded up to 0.1 um, so
+/// that no posture of the set becomes invalid.
+std::string lengthsCsv(const std::vector<LengthEstimate>& estimates, const std::string& made_from);
 
 }  // namespace sinew

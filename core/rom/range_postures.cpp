@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rom/pose_sample.h"
+#include "core/rom/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

@@ -5,12 +5,13 @@
 
 #include "core/error.h"
 #include "core/rom/rom_cells_internal.h"
-#include "core/skeleton/clinical_angles.h"
+#include "core/rom/validity.h"
 
 namespace sinew {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kTolerance_rad = 1e-9;
 
 /// From the joint centre along the child's bone: to the next joint down the chain. A segment that ends there has its
 /// own long axis: the foot points forward, the hand towards its centre of mass.
@@ -30,23 +31,12 @@ RomMapFrame frameOf(const Skeleton& skeleton, const Joint& joint) {
   return {shaft, (ahead - shaft * shaft.dot(ahead)).normalized()};
 }
 
-bool insideEnvelope(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB) {
-  constexpr double kTolerance_rad = 1e-9;  // as in evaluatePosture()
-  const Eigen::Vector3d clinical = clinicalAngles(skeleton, joint, R_JB);
-  for (int i = 0; i < 3; ++i) {
-    const Coordinate& c = skeleton.coordinates[joint.first_coordinate + i];
-    if (clinical[i] < c.athlete_min_rad - kTolerance_rad || clinical[i] > c.athlete_max_rad + kTolerance_rad)
-      return false;
-  }
-  return true;
-}
-
 void clearCellsBeyondEnvelope(const Skeleton& skeleton, const Joint& joint, RomMap& map) {
   for (int t = 0; t < RomMap::kTwists; ++t)
     for (int p = 0; p < RomMap::kPolars; ++p)
       for (int a = 0; a < RomMap::kAzimuths; ++a)
         if (auto& valid = map.valid[RomMap::cell(t, p, a)])
-          valid = insideEnvelope(skeleton, joint, map.R_JB(t, p, a));
+          valid = ballStopMargin_rad(skeleton, joint, map.R_JB(t, p, a)) >= -kTolerance_rad;
 }
 
 }  // namespace

@@ -27,21 +27,24 @@ double angleAbout(const Eigen::Vector3d& n, const Eigen::Vector3d& u, const Eige
   return std::atan2(n.dot(up.cross(vp)), up.dot(vp));
 }
 
-/// Angles a, b, c with R = Rot(e1, a) Rot(e2, b) Rot(e3, c); e2 is normal to e3, e1 may be oblique (forearm axis).
-/// Where e1 and the turned e3 align, a is set to 0 and c takes the rest.
-Eigen::Vector3d sequenceAngles(const Eigen::Matrix3d& R, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2,
-                               const Eigen::Vector3d& e3) {
+/// The two triples a, b, c with R = Rot(e1, a) Rot(e2, b) Rot(e3, c), that with the smaller |b| first; e2 is normal
+/// to e3, e1 may be oblique (forearm axis). Where e1 and the turned e3 align, a is set to 0 and c takes the rest.
+std::array<Eigen::Vector3d, 2> sequenceAngles(const Eigen::Matrix3d& R, const Eigen::Vector3d& e1,
+                                              const Eigen::Vector3d& e2, const Eigen::Vector3d& e3) {
   // e1 . R e3 = A cos b + B sin b does not depend on a and c.
   const double A = e1.dot(e3), B = e1.dot(e2.cross(e3)), amplitude = std::hypot(A, B);
   const double phase = std::atan2(B, A);
   const double open = std::acos(std::clamp(e1.dot(R * e3) / amplitude, -1.0, 1.0));
   const auto wrapped = [](double x) { return std::remainder(x, 2 * std::numbers::pi); };
+  const auto with = [&](double b) {
+    const Eigen::Matrix3d R2 = rotationAbout<double>(e2, b);
+    const double a = angleAbout(e1, R2 * e3, R * e3);
+    const Eigen::Matrix3d R3 = (rotationAbout<double>(e1, a) * R2).transpose() * R;
+    return Eigen::Vector3d{a, b, angleAbout(e3, e2, R3 * e2)};
+  };
   const double b1 = wrapped(phase + open), b2 = wrapped(phase - open);
-  const double b = std::abs(b1) < std::abs(b2) ? b1 : b2;
-  const Eigen::Matrix3d R2 = rotationAbout<double>(e2, b);
-  const double a = angleAbout(e1, R2 * e3, R * e3);
-  const Eigen::Matrix3d R3 = (rotationAbout<double>(e1, a) * R2).transpose() * R;
-  return {a, b, angleAbout(e3, e2, R3 * e2)};
+  if (std::abs(b1) < std::abs(b2)) return {with(b1), with(b2)};
+  return {with(b2), with(b1)};
 }
 
 Eigen::Matrix3d sequenceRotation(const Skeleton& skeleton, const Joint& joint, const Eigen::Vector3d& angles) {
@@ -53,6 +56,11 @@ Eigen::Matrix3d sequenceRotation(const Skeleton& skeleton, const Joint& joint, c
 }  // namespace
 
 Eigen::Vector3d clinicalAngles(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB) {
+  return clinicalReadings(skeleton, joint, R_JB)[0];
+}
+
+std::array<Eigen::Vector3d, 2> clinicalReadings(const Skeleton& skeleton, const Joint& joint,
+                                                const Eigen::Matrix3d& R_JB) {
   return sequenceAngles(R_JB, axis(skeleton, joint, 0), axis(skeleton, joint, 1), axis(skeleton, joint, 2));
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <map>
 #include <string>
 
@@ -14,6 +15,10 @@ Posture postureFromClinical(const Skeleton& skeleton, const Eigen::VectorXd& cli
 
 /// The clinical angles of one ball joint (or the turns of the root) whose child is turned by R_JB.
 Eigen::Vector3d clinicalAngles(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB);
+/// Both readings of that orientation; the first is clinicalAngles(). They differ where the middle angle goes beyond
+/// 90 deg: an arm abducted by 120 reads 60, with the other two turned by 180 deg, or 120.
+std::array<Eigen::Vector3d, 2> clinicalReadings(const Skeleton& skeleton, const Joint& joint,
+                                                const Eigen::Matrix3d& R_JB);
 
 /// Posture from names and degrees (translations in metres); what is not named is 0.
 /// @throws InputError for an unknown name (with the nearest) or a value that is not finite.

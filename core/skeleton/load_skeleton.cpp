@@ -109,6 +109,8 @@ class SkeletonReader {
     coordinate.normal_max_rad = unit * normal.at(1).get<double>();
     coordinate.athlete_min_rad = unit * athlete.at(0).get<double>();
     coordinate.athlete_max_rad = unit * athlete.at(1).get<double>();
+    coordinate.stop_min_rad = coordinate.athlete_min_rad;  // until a preset says otherwise
+    coordinate.stop_max_rad = coordinate.athlete_max_rad;
     skeleton_.coordinates.push_back(coordinate);
   }
 

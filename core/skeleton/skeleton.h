@@ -25,7 +25,8 @@ struct Coordinate {
   bool translational = false;
   Eigen::Vector3d axis;  ///< unit; positive turn = positive coordinate (signs of the left side included)
   double normal_min_rad = 0, normal_max_rad = 0;    ///< adult norm; metres if translational
-  double athlete_min_rad = 0, athlete_max_rad = 0;  ///< envelope of the reference model: bony and ligament stops
+  double athlete_min_rad = 0, athlete_max_rad = 0;  ///< what athletes reach: nobody goes beyond
+  double stop_min_rad = 0, stop_max_rad = 0;        ///< bony and ligament stops of this body (core/rom/validity.h)
 };
 
 struct Joint {

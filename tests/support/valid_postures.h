@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/muscle/evaluate.h"
-#include "core/rom/pose_sample.h"
+#include "core/rom/pose_sampler.h"
 #include "tests/support/postures.h"
 
 namespace sinew::test {

@@ -1,0 +1,115 @@
+#include "core/rom/fit_preset.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/muscle/hill.h"
+#include "core/rom/movement_internal.h"
+
+namespace sinew {
+namespace {
+
+/// One sweep over the pose set. The set is its own mirror image: what holds for the right units holds for the left.
+std::vector<LengthEstimate> lengthsOfPoses(const Skeleton& skeleton, const Musculature& published,
+                                           const RomPreset& preset, const RomNorms& norms,
+                                           const PoseSampleOptions& poses) {
+  const auto half = static_cast<std::ptrdiff_t>(published.units.size() / 2);
+  const Musculature right{{published.units.begin(), published.units.begin() + half}};
+  const PathLimits limits = longestPaths(
+      skeleton, right, [&](const PoseVisitor& visit) { samplePoses(skeleton, preset, norms.tests, poses, visit); });
+  auto estimates = estimateLengths(skeleton, right, limits, restingPostures(skeleton));
+  for (std::ptrdiff_t i = 0; i < half; ++i) {
+    estimates.push_back(estimates[static_cast<std::size_t>(i)]);
+    estimates.back().unit = published.units[static_cast<std::size_t>(half + i)].name;
+  }
+  return estimates;
+}
+
+/// Largest common share of F_max at which units that pull against the movement leave the moment at the threshold.
+double allowedShare(const Model& model, const std::vector<std::pair<double, int>>& moments, const Movement& movement,
+                    double s_deg, double threshold_Nm) {
+  const auto capped_Nm = [&](double cap) {
+    double sum = 0;
+    for (const auto& [moment, u] : moments) {
+      const MusculotendonUnit& unit = model.musculature.units[static_cast<std::size_t>(u)];
+      const double share = equilibrium(unit, movement.length_m(u, s_deg), 0).force_N / unit.max_isometric_force_N;
+      sum += moment > 0 ? moment * std::min(1.0, cap / share) : moment;
+    }
+    return sum;
+  };
+  double low = 0, high = 10;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (capped_Nm(middle) > threshold_Nm ? high : low) = middle;
+  }
+  return low;
+}
+
+/// Fibre and tendon of a unit and of its mirror image times `factor`.
+void lengthen(std::size_t unit, double factor, PresetFit& fit) {
+  const std::size_t half = fit.lengths.size() / 2;
+  for (const std::size_t i : {unit % half, unit % half + half}) {
+    LengthEstimate& e = fit.lengths[i];
+    e.scale *= factor;
+    e.optimal_fiber_length_m *= factor;
+    e.tendon_slack_length_m *= factor;
+    e.relaxed = true;
+    fit.model.musculature.units[i].optimal_fiber_length_m = e.optimal_fiber_length_m;
+    fit.model.musculature.units[i].tendon_slack_length_m = e.tendon_slack_length_m;
+  }
+}
+
+/// Makes the way of one test up to its target free. Returns whether something had to be lengthened.
+bool clearWay(const RomTest& test, double target_deg, double step_deg, PresetFit& fit) {
+  const Movement movement{fit.model, test, 'r'};
+  const auto [coordinate, factor] = *test.reads.begin();
+  require(test.reads.size() == 1 && test.moves.size() == 1, "a target is for a test of one coordinate");
+  const double to_deg = (target_deg - test.read_offset_deg) / factor / test.moves.begin()->second;
+  bool changed = false;
+  constexpr double kTolerance = 1e-4;  // of the threshold
+  for (double s = test.from_deg;; s += movement.direction() * step_deg) {
+    const bool last = (s - to_deg) * movement.direction() >= 0;
+    if (last) s = to_deg - movement.direction() * 1e-6;  // where a stop has not yet halted it
+    const auto moments = movement.moments(s);
+    double sum_Nm = 0;
+    for (const auto& [moment, unit] : moments) sum_Nm += moment;
+    if (sum_Nm > test.threshold_Nm * (1 + kTolerance)) {
+      const double share = allowedShare(fit.model, moments, movement, s, test.threshold_Nm);
+      for (const auto& [moment, u] : moments) {
+        if (moment <= 0) continue;
+        const auto i = static_cast<std::size_t>(u);
+        const double f = relaxingFactor(fit.model.musculature.units[i], movement.length_m(u, s), share);
+        if (f > 1) lengthen(i, f, fit);
+      }
+      changed = true;
+    }
+    if (last) return changed;
+  }
+}
+
+}  // namespace
+
+PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
+                    const RomNorms& norms, const PresetFitOptions& options, const Job& job) {
+  job.report(0, "longest paths of " + preset.name);
+  PresetFit fit{.lengths = lengthsOfPoses(skeleton, published, preset, norms, options.poses)};
+  fit.model.skeleton = skeleton;
+  setStops(fit.model.skeleton, preset);
+  fit.model.musculature = withLengths(published, fit.lengths);
+  for (bool changed = true; changed && fit.rounds < options.most_rounds && !job.cancelled(); ++fit.rounds) {
+    changed = false;
+    job.report(0.5 + 0.5 * fit.rounds / options.most_rounds, "tests of " + preset.name);
+    for (const RomBound& bound : preset.bounds)
+      if (!bound.test.empty())
+        changed = clearWay(norms.test(bound.test), bound.target_deg, options.step_deg, fit) || changed;
+  }
+  for (const RomBound& bound : preset.bounds)
+    if (!bound.test.empty()) fit.readings.push_back(simulateRomTest(fit.model, norms.test(bound.test)));
+  const auto X_WB = segmentPoses(skeleton, zeroPosture(skeleton));
+  for (std::size_t i = 0; i < fit.lengths.size(); ++i)
+    fit.lengths[i].resting_normalized_fiber = normalizedFiber(fit.model.musculature.units[i], X_WB);
+  return fit;
+}
+
+}  // namespace sinew
