@@ -27,10 +27,12 @@ void addRigCommands(Commands& commands);
 void addTriangulateCommand(Commands& commands);
 void addFitCommand(Commands& commands);
 void addExamCommand(Commands& commands);
-void addModelCommands(Commands& commands);
-void addClearanceCommand(CLI::App& model, Commands& commands);  // of `sinew model`
-void addAuditCommand(CLI::App& parent, Commands& commands);       // model audit
-void addMomentArmsCommand(CLI::App& parent, Commands& commands);  // model moment-arms
+void addModelCommands(Commands& commands);  // and its own: clearance, audit, ...
+void addClearanceCommand(CLI::App& model, Commands& commands);
+void addAuditCommand(CLI::App& model, Commands& commands);
+void addMomentArmsCommand(CLI::App& model, Commands& commands);
+void addPictureCommand(CLI::App& model, Commands& commands);
+void addReplaceBonesCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);

@@ -98,6 +98,8 @@ void addModelCommands(Commands& commands) {
   addClearanceCommand(model, commands);
   addAuditCommand(model, commands);
   addMomentArmsCommand(model, commands);
+  addPictureCommand(model, commands);
+  addReplaceBonesCommand(model, commands);
 }
 
 }  // namespace sinew
