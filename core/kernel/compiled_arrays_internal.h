@@ -14,6 +14,7 @@ struct RealArrays {
   std::vector<PatellaView<Real>> patellae;
   std::vector<RadiusView<Real>> radii;
   std::vector<TermView<Real>> terms;
+  std::vector<Real> unit_constant_m;
 };
 
 /// What a CompiledModel owns.
@@ -21,7 +22,7 @@ struct CompiledArrays {
   int segment_count = 0, coordinate_count = 0, max_terms = 0, max_nodes = 0;
   RealArrays<double> doubles;
   RealArrays<float> floats;
-  std::vector<int> unit_points, point_terms, term_offset, term_slot, unit_nodes;
+  std::vector<int> unit_runs, run_points, point_terms, term_offset, term_slot, unit_nodes;
   std::vector<NodeView> nodes;
   std::vector<int> gradient_start, gradient_coordinate;
   std::vector<double> longest_m;
@@ -36,12 +37,14 @@ struct CompiledArrays {
     }();
     return {static_cast<int>(r.joints.size()),
             segment_count,
-            static_cast<int>(unit_points.size()) - 1,
+            static_cast<int>(unit_runs.size()) - 1,
             static_cast<int>(gradient_coordinate.size()),
             r.joints.data(),
             r.patellae.data(),
             r.radii.data(),
-            unit_points.data(),
+            r.unit_constant_m.data(),
+            unit_runs.data(),
+            run_points.data(),
             point_terms.data(),
             r.terms.data(),
             term_offset.data(),

@@ -1,6 +1,7 @@
 #include "core/kernel/compiled_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/kernel/compiled_arrays_internal.h"
@@ -69,41 +70,54 @@ RadiusView<Real> radiusView(const Skeleton& skeleton, const RadiusDriver& d) {
 }
 
 template <class Real>
-RealArrays<Real> realArrays(const Skeleton& skeleton, const Musculature& musculature) {
+RealArrays<Real> realArrays(const Skeleton& skeleton, std::span<const ChangingPath> paths) {
   RealArrays<Real> arrays;
   for (const Joint& joint : skeleton.joints) arrays.joints.push_back(jointView<Real>(skeleton, joint));
   for (const auto& d : skeleton.patellae) arrays.patellae.push_back(patellaView<Real>(d));
   for (const auto& d : skeleton.radii) arrays.radii.push_back(radiusView<Real>(skeleton, d));
-  for (const auto& unit : musculature.units)
-    for (const auto& point : unit.path)
-      for (const Anchor& a : point.anchors) {
-        const Eigen::Vector3d wx = a.weight * a.p_B;
-        arrays.terms.push_back({Real(wx.x()), Real(wx.y()), Real(wx.z()), Real(a.weight)});
-      }
+  for (const ChangingPath& path : paths) {
+    arrays.unit_constant_m.push_back(Real(path.constant_m));
+    for (const auto& run : path.runs)
+      for (const PathPoint* point : run)
+        for (const Anchor& a : point->anchors) {
+          const Eigen::Vector3d wx = a.weight * a.p_B;
+          arrays.terms.push_back({Real(wx.x()), Real(wx.y()), Real(wx.z()), Real(a.weight)});
+        }
+  }
   return arrays;
 }
 
-void addUnit(const SegmentTree& tree, const MusculotendonUnit& unit, CompiledArrays& arrays) {
-  const UnitNodes nodes = nodesOf(tree, unit);
-  for (const NodeView& node : nodes.nodes) arrays.nodes.push_back(node);
-  int terms = 0;
-  for (const auto& point : unit.path) {
-    const bool single = point.anchors.size() == 1;
-    require(!single || point.anchors.front().weight == 1, "the weights of a path point add up to 1");
-    for (const Anchor& a : point.anchors) {
-      arrays.term_offset.push_back(12 * a.segment);
-      arrays.term_slot.push_back(nodes.slotOf(a.segment));
-      ++terms;
+void addPath(const ChangingPath& path, const UnitNodes& nodes, CompiledArrays& arrays) {
+  const auto first_term = arrays.term_offset.size();
+  for (const auto& run : path.runs) {
+    for (const PathPoint* point : run) {
+      const bool single = point->anchors.size() == 1;
+      require(!single || point->anchors.front().weight == 1, "the weights of a path point add up to 1");
+      for (const Anchor& a : point->anchors) {
+        arrays.term_offset.push_back(12 * a.segment);
+        arrays.term_slot.push_back(nodes.slotOf(a.segment));
+      }
+      arrays.point_terms.push_back(static_cast<int>(arrays.term_offset.size()));
     }
-    arrays.point_terms.push_back(static_cast<int>(arrays.term_offset.size()));
+    arrays.run_points.push_back(static_cast<int>(arrays.point_terms.size()) - 1);
   }
-  arrays.unit_points.push_back(static_cast<int>(arrays.point_terms.size()) - 1);
+  arrays.unit_runs.push_back(static_cast<int>(arrays.run_points.size()) - 1);
+  arrays.max_terms = std::max(arrays.max_terms, static_cast<int>(arrays.term_offset.size() - first_term));
+}
+
+void addUnit(const SegmentTree& tree, const MusculotendonUnit& unit, const ChangingPath& path,
+             CompiledArrays& arrays) {
+  UnitNodes nodes = nodesOf(tree, unit);
+  addPath(path, nodes, arrays);
+  for (NodeView& node : nodes.nodes) {
+    node.entry += arrays.gradient_start.back();
+    arrays.nodes.push_back(node);
+  }
   arrays.unit_nodes.push_back(static_cast<int>(arrays.nodes.size()));
   arrays.gradient_coordinate.insert(arrays.gradient_coordinate.end(), nodes.coordinates.begin(),
                                     nodes.coordinates.end());
   arrays.gradient_start.push_back(static_cast<int>(arrays.gradient_coordinate.size()));
   arrays.longest_m.push_back(longestLength_m(unit));
-  arrays.max_terms = std::max(arrays.max_terms, terms);
   arrays.max_nodes = std::max(arrays.max_nodes, static_cast<int>(nodes.nodes.size()));
 }
 
@@ -113,15 +127,13 @@ CompiledModel::CompiledModel(const Skeleton& skeleton, const Musculature& muscul
   auto arrays = std::make_shared<CompiledArrays>();
   arrays->segment_count = static_cast<int>(skeleton.segments.size());
   arrays->coordinate_count = skeleton.coordinateCount();
-  arrays->doubles = realArrays<double>(skeleton, musculature);
-  arrays->floats = realArrays<float>(skeleton, musculature);
-  arrays->unit_points = arrays->point_terms = arrays->unit_nodes = arrays->gradient_start = {0};
+  std::vector<ChangingPath> paths;
+  for (const auto& unit : musculature.units) paths.push_back(changingPath(unit));
+  arrays->doubles = realArrays<double>(skeleton, paths);
+  arrays->floats = realArrays<float>(skeleton, paths);
+  arrays->unit_runs = arrays->run_points = arrays->point_terms = arrays->unit_nodes = arrays->gradient_start = {0};
   const SegmentTree tree = segmentTree(skeleton);
-  for (const auto& unit : musculature.units) addUnit(tree, unit, *arrays);
-  // A node's entry is kept relative to its unit until here.
-  for (std::size_t u = 0; u < musculature.units.size(); ++u)
-    for (int n = arrays->unit_nodes[u]; n < arrays->unit_nodes[u + 1]; ++n)
-      arrays->nodes[n].entry += arrays->gradient_start[u];
+  for (std::size_t u = 0; u < paths.size(); ++u) addUnit(tree, musculature.units[u], paths[u], *arrays);
   arrays_ = std::move(arrays);
 }
 

@@ -45,13 +45,12 @@ inline Vector3Of<L> keptPoint(const ModelView<double>& m, int point, int first_t
   return p;
 }
 
-/// Wrenches of the unit's nodes; returns its length.
+/// Adds the wrenches of one run of points to the unit's nodes; returns its length.
 template <class L>
-inline typename L::V unitWrenches(const ModelView<double>& m, int unit, const GradientScratch<L>& s) {
+inline typename L::V runWrenches(const ModelView<double>& m, int run, int first_term, const GradientScratch<L>& s) {
   using V = typename L::V;
   const V zero = L::set(0), one = L::set(1);
-  for (int i = 0; i < 6 * (m.unit_nodes[unit + 1] - m.unit_nodes[unit]); ++i) s.wrench[i] = zero;
-  const int first = m.unit_points[unit], last = m.unit_points[unit + 1] - 1, first_term = m.point_terms[first];
+  const int first = m.run_points[run], last = m.run_points[run + 1] - 1;
   V length = zero, ux = zero, uy = zero, uz = zero;
   Vector3Of<L> a = keptPoint<L>(m, first, first_term, s);
   for (int p = first; p < last; ++p) {
@@ -67,6 +66,18 @@ inline typename L::V unitWrenches(const ModelView<double>& m, int unit, const Gr
     a = b;
   }
   addPull<L>(m, last, first_term, ux, uy, uz, s);
+  return length;
+}
+
+/// Wrenches of the unit's nodes; returns its length.
+template <class L>
+inline typename L::V unitWrenches(const ModelView<double>& m, int unit, const GradientScratch<L>& s) {
+  for (int i = 0; i < 6 * (m.unit_nodes[unit + 1] - m.unit_nodes[unit]); ++i) s.wrench[i] = L::set(0);
+  const int first_run = m.unit_runs[unit], end_run = m.unit_runs[unit + 1];
+  typename L::V length = L::set(m.unit_constant_m[unit]);
+  if (first_run == end_run) return length;
+  const int first_term = m.point_terms[m.run_points[first_run]];
+  for (int run = first_run; run < end_run; ++run) length += runWrenches<L>(m, run, first_term, s);
   return length;
 }
 

@@ -33,14 +33,16 @@ inline Vector3Of<L> pathPoint(const ModelView<typename L::Real>& m, int point, c
 /// Length of one unit at the poses X of its segments.
 template <class L>
 inline typename L::V unitLength(const ModelView<typename L::Real>& m, int unit, const typename L::V* X) {
-  const int end = m.unit_points[unit + 1];
-  typename L::V length = L::set(0);
-  Vector3Of<L> a = pathPoint<L>(m, m.unit_points[unit], X);
-  for (int p = m.unit_points[unit] + 1; p < end; ++p) {
-    const Vector3Of<L> b = pathPoint<L>(m, p, X);
-    const typename L::V dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
-    length += L::sqrt(dx * dx + dy * dy + dz * dz);
-    a = b;
+  typename L::V length = L::set(m.unit_constant_m[unit]);
+  for (int run = m.unit_runs[unit]; run < m.unit_runs[unit + 1]; ++run) {
+    const int end = m.run_points[run + 1];
+    Vector3Of<L> a = pathPoint<L>(m, m.run_points[run], X);
+    for (int p = m.run_points[run] + 1; p < end; ++p) {
+      const Vector3Of<L> b = pathPoint<L>(m, p, X);
+      const typename L::V dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+      length += L::sqrt(dx * dx + dy * dy + dz * dz);
+      a = b;
+    }
   }
   return length;
 }

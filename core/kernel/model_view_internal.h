@@ -54,7 +54,9 @@ struct ModelView {
   const JointView<Real>* joints;
   const PatellaView<Real>* patellae;  ///< 2
   const RadiusView<Real>* radii;      ///< 2
-  const int* unit_points;             ///< unit_count + 1
+  const Real* unit_constant_m;        ///< length of the segments of the path that lie on one bone
+  const int* unit_runs;               ///< unit_count + 1; a run is a piece of path whose segments all change
+  const int* run_points;              ///< runs + 1
   const int* point_terms;             ///< points + 1
   const TermView<Real>* terms;
   const int* term_offset;  ///< 12 * segment

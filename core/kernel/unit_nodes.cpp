@@ -30,6 +30,26 @@ std::vector<int> spannedSegments(const SegmentTree& tree, const MusculotendonUni
 
 }  // namespace
 
+ChangingPath changingPath(const MusculotendonUnit& unit) {
+  ChangingPath path;
+  const auto fixedTogether = [](const PathPoint& a, const PathPoint& b) {
+    return a.anchors.size() == 1 && b.anchors.size() == 1 && a.anchors[0].segment == b.anchors[0].segment;
+  };
+  bool in_run = false;
+  for (std::size_t i = 1; i < unit.path.size(); ++i) {
+    const PathPoint &a = unit.path[i - 1], &b = unit.path[i];
+    if (fixedTogether(a, b)) {
+      path.constant_m += (b.anchors[0].p_B - a.anchors[0].p_B).norm();
+      in_run = false;
+      continue;
+    }
+    if (!in_run) path.runs.push_back({&a});
+    path.runs.back().push_back(&b);
+    in_run = true;
+  }
+  return path;
+}
+
 SegmentTree segmentTree(const Skeleton& skeleton) {
   SegmentTree tree;
   tree.links.resize(skeleton.segments.size());

@@ -28,4 +28,13 @@ struct UnitNodes {
 };
 UnitNodes nodesOf(const SegmentTree& tree, const MusculotendonUnit& unit);
 
+/// The part of a path that changes. A segment of the path between two points of one bone has a constant length and
+/// pulls that bone nowhere; what is left falls into runs of points that follow each other. Points inside a bone are
+/// in none.
+struct ChangingPath {
+  double constant_m = 0;
+  std::vector<std::vector<const PathPoint*>> runs;
+};
+ChangingPath changingPath(const MusculotendonUnit& unit);
+
 }  // namespace sinew
