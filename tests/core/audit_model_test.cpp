@@ -41,6 +41,10 @@ TEST(AuditOfTheReference, LeavesNothingUnexplained) {
               audit.count(AuditVerdict::Inside), audit.count(AuditVerdict::Explained));
 }
 
+TEST(AuditOfTheReference, LeavesNothingUnexplainedInTheLengthsOfAnAthlete) {
+  EXPECT_THAT(outliers(loadReferenceModel(test::resourceDir(), "athlete")), testing::IsEmpty());
+}
+
 TEST(AuditOfTheReference, ShowsFiguresThatAreKnown) {
   const ModelAudit audit = auditModel(reference(), reference(), ranges());
   const auto soleus = std::ranges::find(audit.units, "soleus_medial_r", &AuditedUnit::name);
