@@ -18,12 +18,11 @@ void fitAndWrite(const std::filesystem::path& resources, const std::filesystem::
   const RomPreset preset = loadRomPreset(resources, name, skeleton);
   const PresetFit fit = fitPreset(skeleton, published, preset, loadRomNorms(resources, skeleton));
   std::printf("%s: %d rounds over the tests\n", name.c_str(), fit.rounds);
-  std::size_t reading = 0;
-  for (const RomBound& bound : preset.bounds) {
-    if (bound.test.empty()) continue;
-    const RomReading& r = fit.readings[reading++];
-    std::printf("  %-20s target %7.1f  reads %7.1f  %6.1f N m  %s\n", r.test.c_str(), bound.target_deg, r.angle_deg,
-                r.moment_Nm, r.limited_by.empty() ? "" : r.limited_by.front().c_str());
+  const auto targets = preset.targets();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const RomReading& r = fit.readings[i];
+    std::printf("  %-20s reads %7.1f  %6.1f N m  %s\n", r.test.c_str(), r.angle_deg, r.moment_Nm,
+                r.limited_by.empty() ? "" : r.limited_by.front().c_str());
   }
   writeFileAtomically(out / lengthsFile(name), lengthsCsv(fit.lengths, name + ".json"));
 }

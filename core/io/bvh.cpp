@@ -160,6 +160,7 @@ std::string bvhText(const BvhMotion& motion) {
     return std::string{text};
   };
   std::string text = "HIERARCHY\n";
+  std::vector<int> rows;  // of the channels, in the order in which the joints are written
   const auto write = [&](const auto& self, int index, const std::string& indent) -> void {
     const BvhJoint& joint = motion.joints[index];
     const bool end_site = joint.channels.empty() && joint.name.ends_with("_end");
@@ -170,6 +171,8 @@ std::string bvhText(const BvhMotion& motion) {
     if (!end_site) {
       text += indent + "  CHANNELS " + std::to_string(joint.channels.size());
       for (const BvhChannel c : joint.channels) text += " " + std::string{kChannelNames[static_cast<std::size_t>(c)]};
+      for (std::size_t c = 0; c < joint.channels.size(); ++c)
+        rows.push_back(joint.first_channel + static_cast<int>(c));
       text += "\n";
     }
     for (std::size_t child = 0; child < motion.joints.size(); ++child)
@@ -181,7 +184,7 @@ std::string bvhText(const BvhMotion& motion) {
   text += "MOTION\nFrames: " + std::to_string(motion.channels.cols()) +
           "\nFrame Time: " + number(motion.frame_time_s) + "\n";
   for (Eigen::Index f = 0; f < motion.channels.cols(); ++f) {
-    for (Eigen::Index c = 0; c < motion.channels.rows(); ++c) text += (c ? " " : "") + number(motion.channels(c, f));
+    for (const int row : rows) text += (&row == rows.data() ? "" : " ") + number(motion.channels(row, f));
     text += "\n";
   }
   return text;

@@ -97,33 +97,80 @@ struct Targets {
   Eigen::Vector3d p_WPelvis = Eigen::Vector3d::Zero();
 };
 
-/// Damped Gauss-Newton over all coordinates. A weak pull to where a frame starts decides what nothing else does.
+/// Gauss-Newton over all coordinates, from where the turns of the joints alone lead; a step that makes it worse is
+/// taken back and damped. A weak pull to the start decides what nothing else does.
 class InverseKinematics {
  public:
   InverseKinematics(const Skeleton& skeleton, const MotionImportOptions& options)
       : skeleton_{skeleton}, options_{options} {}
 
-  Posture solve(const Posture& start, const Targets& targets) const {
-    Posture q = start;
+  /// Every joint turned as its targets say, hinges as far as they can; joints without a target as in `otherwise`.
+  Posture turned(const Posture& otherwise, const Targets& targets) const {
+    Posture q = otherwise;
     q.head<3>() = targets.p_WPelvis - skeleton_.joints[0].X_PJ.translation();
-    for (int i = 0; i < options_.iterations; ++i) {
-      Eigen::MatrixXd H = Eigen::MatrixXd::Identity(q.size(), q.size()) * kPull;
+    std::vector<Eigen::Matrix3d> R_WB(skeleton_.joints.size());
+    for (const Joint& joint : skeleton_.joints) {
+      Eigen::Matrix3d R_WJ = joint.X_PJ.linear();
+      if (joint.parent >= 0) R_WJ = R_WB[joint.parent] * R_WJ;
+      const int r = joint.first_coordinate + (joint.type == JointType::Free ? 3 : 0);
+      const bool hinge = joint.type == JointType::Revolute;
+      const Eigen::Vector3d& axis = skeleton_.coordinates[r].axis;
+      const auto target = std::ranges::find(targets.turns, joint.child, &Targets::Turn::segment);
+      if (target != targets.turns.end()) {
+        const Eigen::Matrix3d R_JB = R_WJ.transpose() * target->R_WB;
+        const Eigen::Quaterniond turn{R_JB};
+        if (hinge)
+          q[r] = std::remainder(2 * std::atan2(turn.vec().dot(axis), turn.w()), 2 * std::numbers::pi);
+        else
+          q.segment<3>(r) = vectorFromRotation(R_JB);
+      }
+      R_WB[joint.child] = R_WJ * (hinge ? rotationAbout<double>(axis, q[r])
+                                        : rotationFromVector<double>(Eigen::Vector3d{q.segment<3>(r)}));
+    }
+    keepInside(q);
+    return q;
+  }
+
+  Posture solve(const Posture& otherwise, const Targets& targets) const {
+    const Posture start = turned(otherwise, targets);
+    Posture q = start;
+    double cost = costAt(q, start, targets), damping = kPull;
+    for (int i = 0; i < options_.iterations && damping < 1e6; ++i) {
+      Eigen::MatrixXd H = Eigen::MatrixXd::Zero(q.size(), q.size());
       Eigen::VectorXd g = kPull * (start - q);
-      g.head<3>().setZero();
       accumulate(q, targets, H, g);
+      H.diagonal().array() += damping;
       for (int k = 0; k < 3; ++k) H.row(k).setZero(), H.col(k).setZero(), H(k, k) = 1, g[k] = 0;  // placed already
-      Eigen::VectorXd step = H.ldlt().solve(g);
-      if (const double largest = step.lpNorm<Eigen::Infinity>(); largest > kLongestStep_rad)
-        step *= kLongestStep_rad / largest;
-      q += step;
-      keepInside(q);
+      const Eigen::VectorXd step = H.ldlt().solve(g);
+      Posture tried = q + step;
+      keepInside(tried);
+      const double tried_cost = costAt(tried, start, targets);
+      if (tried_cost > cost) {
+        damping *= 10;
+        continue;
+      }
+      q = tried;
+      cost = tried_cost;
+      damping = std::max(kPull, damping / 10);
       if (step.lpNorm<Eigen::Infinity>() < options_.tolerance) break;
     }
     return q;
   }
 
  private:
-  static constexpr double kPull = 1e-6, kLongestStep_rad = 0.5;
+  static constexpr double kPull = 1e-6;
+
+  double costAt(const Posture& q, const Posture& start, const Targets& targets) const {
+    const auto X_WB = segmentPoses(skeleton_, q);
+    double cost = kPull * (q - start).squaredNorm();
+    for (const auto& t : targets.turns)
+      cost += t.weight * t.weight * vectorFromRotation(turnBetween(t.R_WB, X_WB[t.segment].linear())).squaredNorm();
+    for (const auto& d : targets.directions) {
+      const Eigen::Vector3d along = X_WB[d.to].translation() - X_WB[d.from].translation();
+      cost += (along.normalized() - d.direction_W).squaredNorm();
+    }
+    return cost;
+  }
 
   void accumulate(const Posture& q, const Targets& targets, Eigen::MatrixXd& H, Eigen::VectorXd& g) const {
     const Kinematics k = kinematics(skeleton_, q);

@@ -60,12 +60,17 @@ void lengthen(std::size_t unit, double factor, PresetFit& fit) {
   }
 }
 
+/// Place of the movement where the test reads its target.
+double placeOf(const RomTest& test, const RomTarget& target, const Movement& movement) {
+  if (target.to_stops) return movement.end_deg();
+  require(test.reads.size() == 1 && test.moves.size() == 1, "a target angle is for a test of one coordinate");
+  return (target.target_deg - test.read_offset_deg) / test.reads.begin()->second / test.moves.begin()->second;
+}
+
 /// Makes the way of one test up to its target free. Returns whether something had to be lengthened.
-bool clearWay(const RomTest& test, double target_deg, double step_deg, PresetFit& fit) {
+bool clearWay(const RomTest& test, const RomTarget& target, double step_deg, PresetFit& fit) {
   const Movement movement{fit.model, test, 'r'};
-  const auto [coordinate, factor] = *test.reads.begin();
-  require(test.reads.size() == 1 && test.moves.size() == 1, "a target is for a test of one coordinate");
-  const double to_deg = (target_deg - test.read_offset_deg) / factor / test.moves.begin()->second;
+  const double to_deg = placeOf(test, target, movement);
   bool changed = false;
   constexpr double kTolerance = 1e-4;  // of the threshold
   for (double s = test.from_deg;; s += movement.direction() * step_deg) {
@@ -97,15 +102,14 @@ PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, cons
   fit.model.skeleton = skeleton;
   setStops(fit.model.skeleton, preset);
   fit.model.musculature = withLengths(published, fit.lengths);
+  const auto targets = preset.targets();
   for (bool changed = true; changed && fit.rounds < options.most_rounds && !job.cancelled(); ++fit.rounds) {
     changed = false;
     job.report(0.5 + 0.5 * fit.rounds / options.most_rounds, "tests of " + preset.name);
-    for (const RomBound& bound : preset.bounds)
-      if (!bound.test.empty())
-        changed = clearWay(norms.test(bound.test), bound.target_deg, options.step_deg, fit) || changed;
+    for (const RomTarget& target : targets)
+      changed = clearWay(norms.test(target.test), target, options.step_deg, fit) || changed;
   }
-  for (const RomBound& bound : preset.bounds)
-    if (!bound.test.empty()) fit.readings.push_back(simulateRomTest(fit.model, norms.test(bound.test)));
+  for (const RomTarget& target : targets) fit.readings.push_back(simulateRomTest(fit.model, norms.test(target.test)));
   const auto X_WB = segmentPoses(skeleton, zeroPosture(skeleton));
   for (std::size_t i = 0; i < fit.lengths.size(); ++i)
     fit.lengths[i].resting_normalized_fiber = normalizedFiber(fit.model.musculature.units[i], X_WB);

@@ -25,7 +25,7 @@ struct PresetFitOptions {
 struct PresetFit {
   std::vector<LengthEstimate> lengths;
   Model model;                       ///< skeleton with the preset's stops, muscles with these lengths; no bones
-  std::vector<RomReading> readings;  ///< of the tests that the preset has a target for, in the order of its bounds
+  std::vector<RomReading> readings;  ///< of the preset's targets, in their order
   int rounds = 0;                    ///< over the tests, until nothing needed to be lengthened
 };
 

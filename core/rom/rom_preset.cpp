@@ -78,6 +78,15 @@ void checkCoordinates(const RomPreset& preset, const Skeleton& skeleton, const s
 
 }  // namespace
 
+std::vector<RomTarget> RomPreset::targets() const {
+  std::vector<RomTarget> all;
+  for (const RomBound& bound : bounds)
+    if (!bound.test.empty() && std::ranges::none_of(all, [&](const RomTarget& t) { return t.test == bound.test; }))
+      all.push_back({bound.test, bound.target_deg});
+  all.insert(all.end(), more_targets.begin(), more_targets.end());
+  return all;
+}
+
 const std::vector<std::string>& romPresetNames() {
   static const std::vector<std::string> names{"average-adult", "athlete"};
   return names;
@@ -92,8 +101,8 @@ RomPreset loadRomPreset(const std::filesystem::path& resource_dir, std::string_v
   const Json document = parseJson(readFile(file), file.filename().string());
   const JsonReader root{document, file.filename().string()};
   root.expectFormat("sinew.rom_preset", 1);
-  root.allowOnly({"format", "version", "name", "title", "note", "ranges", "couplings"});
-  RomPreset preset{root["name"].text(), root["title"].text(), root["note"].text(), {}};
+  root.allowOnly({"format", "version", "name", "title", "note", "ranges", "couplings", "more_targets"});
+  RomPreset preset{root["name"].text(), root["title"].text(), root["note"].text(), {}, {}};
   for (const auto& json : root["ranges"].items()) {
     json.allowOnly({"coordinate", "min", "max", "symmetric", "source"});
     const std::string coordinate = json["coordinate"].text(), source = json["source"].text();
@@ -109,6 +118,13 @@ RomPreset loadRomPreset(const std::filesystem::path& resource_dir, std::string_v
     }
   }
   for (const auto& json : root["couplings"].items()) preset.bounds.push_back(couplingFrom(json));
+  for (const auto& json : root["more_targets"].items()) {
+    json.allowOnly({"test", "target_deg", "to_stops"});
+    RomTarget target{.test = json["test"].text()};
+    if (const auto to_stops = json.find("to_stops")) target.to_stops = to_stops->boolean();
+    if (!target.to_stops) target.target_deg = json["target_deg"].numberIn(-200, 200);
+    preset.more_targets.push_back(target);
+  }
   checkCoordinates(preset, skeleton, file.filename().string());
   return preset;
 }

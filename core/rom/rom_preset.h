@@ -32,9 +32,19 @@ struct RomBound {
   bool isCoupling() const { return terms.size() > 1; }
 };
 
+/// A test that is no end of a single range, but must get as far all the same: the arm overhead with its girdle, say.
+struct RomTarget {
+  std::string test;
+  double target_deg = 0;  ///< as written down
+  bool to_stops = false;  ///< instead of a target: until every moving coordinate is at its stop
+};
+
 struct RomPreset {
   std::string name, title, note;
   std::vector<RomBound> bounds;
+  std::vector<RomTarget> more_targets;
+  /// Those of the bounds, then the others.
+  std::vector<RomTarget> targets() const;
 };
 
 /// Reads rom/PRESET.json. @throws InputError with the nearest names, or naming file, entry,

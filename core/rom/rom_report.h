@@ -15,7 +15,7 @@ struct RomTestLine {
   RomReading reading;
   RomNorm norm;                                               ///< of the preset compared with; perhaps unknown
   double off_deg = std::numeric_limits<double>::quiet_NaN();  ///< from the mean; from the range if there is none
-  bool accepted = true;                                       ///< inside the accepted range
+  bool accepted = true;                                       ///< inside the accepted range, within a degree
 };
 
 /// One dependence of a joint on another.

@@ -156,19 +156,20 @@ TEST_P(SampledPoses, RepeatAndMoveBothSidesIndependently) {
   const int right = skeleton().coordinateIndex("knee_flexion_r"), left = skeleton().coordinateIndex("knee_flexion_l");
   const PoseMirror mirror{skeleton()};
   bool differs = false;
-  double products = 0, squares = 0;
+  double mean = 0, products = 0, squares = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) mean += a.posture(i)[right] / static_cast<double>(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a.posture(i), b.posture(i));
     differs = differs || a.posture(i) != other.posture(i);
     if (i % 2 == 1) {
       ASSERT_EQ(a.posture(i), mirror(a.posture(i - 1)));
     }
-    const double r = a.posture(i)[right] - 70 * kDeg, l = a.posture(i)[left] - 70 * kDeg;
+    const double r = a.posture(i)[right] - mean, l = a.posture(i)[left] - mean;
     products += r * l;
     squares += r * r;
   }
   EXPECT_TRUE(differs);
-  EXPECT_LT(std::abs(products / squares), 0.25);
+  EXPECT_LT(std::abs(products / squares), 0.25);  // correlation of the knees; 0 +- 0.06 by chance, ends included
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, SampledPoses, testing::ValuesIn(romPresetNames()),
