@@ -19,10 +19,10 @@ struct RealArrays {
 
 /// What a CompiledModel owns.
 struct CompiledArrays {
-  int segment_count = 0, coordinate_count = 0, max_terms = 0, max_nodes = 0;
+  int segment_count = 0, coordinate_count = 0, max_points = 0, max_terms = 0, max_nodes = 0;
   RealArrays<double> doubles;
   RealArrays<float> floats;
-  std::vector<int> unit_runs, run_points, point_terms, term_offset, term_slot, unit_nodes;
+  std::vector<int> group_units, unit_runs, run_points, point_terms, term_offset, term_slot, unit_nodes;
   std::vector<NodeView> nodes;
   std::vector<int> gradient_start, gradient_coordinate;
   std::vector<double> longest_m;
@@ -51,6 +51,9 @@ struct CompiledArrays {
             term_slot.data(),
             unit_nodes.data(),
             nodes.data(),
+            static_cast<int>(group_units.size()) - 1,
+            group_units.data(),
+            max_points,
             max_terms,
             max_nodes};
   }

@@ -88,7 +88,6 @@ RealArrays<Real> realArrays(const Skeleton& skeleton, std::span<const ChangingPa
 }
 
 void addPath(const ChangingPath& path, const UnitNodes& nodes, CompiledArrays& arrays) {
-  const auto first_term = arrays.term_offset.size();
   for (const auto& run : path.runs) {
     for (const PathPoint* point : run) {
       const bool single = point->anchors.size() == 1;
@@ -102,7 +101,6 @@ void addPath(const ChangingPath& path, const UnitNodes& nodes, CompiledArrays& a
     arrays.run_points.push_back(static_cast<int>(arrays.point_terms.size()) - 1);
   }
   arrays.unit_runs.push_back(static_cast<int>(arrays.run_points.size()) - 1);
-  arrays.max_terms = std::max(arrays.max_terms, static_cast<int>(arrays.term_offset.size() - first_term));
 }
 
 void addUnit(const SegmentTree& tree, const MusculotendonUnit& unit, const ChangingPath& path,
@@ -121,6 +119,20 @@ void addUnit(const SegmentTree& tree, const MusculotendonUnit& unit, const Chang
   arrays.max_nodes = std::max(arrays.max_nodes, static_cast<int>(nodes.nodes.size()));
 }
 
+/// Units in groups of about as many points as their working memory leaves room for in the first-level cache.
+void groupUnits(CompiledArrays& arrays) {
+  constexpr int kPoints = 24;
+  const auto firstPoint = [&](int unit) { return arrays.run_points[arrays.unit_runs[unit]]; };
+  const int units = static_cast<int>(arrays.unit_runs.size()) - 1;
+  for (int first = 0, end; first < units; first = end) {
+    for (end = first + 1; end < units && firstPoint(end + 1) - firstPoint(first) <= kPoints;) ++end;
+    arrays.group_units.push_back(end);
+    arrays.max_points = std::max(arrays.max_points, firstPoint(end) - firstPoint(first));
+    arrays.max_terms =
+        std::max(arrays.max_terms, arrays.point_terms[firstPoint(end)] - arrays.point_terms[firstPoint(first)]);
+  }
+}
+
 }  // namespace
 
 CompiledModel::CompiledModel(const Skeleton& skeleton, const Musculature& musculature, Isa isa) : isa_{isa} {
@@ -131,9 +143,11 @@ CompiledModel::CompiledModel(const Skeleton& skeleton, const Musculature& muscul
   for (const auto& unit : musculature.units) paths.push_back(changingPath(unit));
   arrays->doubles = realArrays<double>(skeleton, paths);
   arrays->floats = realArrays<float>(skeleton, paths);
-  arrays->unit_runs = arrays->run_points = arrays->point_terms = arrays->unit_nodes = arrays->gradient_start = {0};
+  arrays->group_units = arrays->unit_runs = arrays->run_points = arrays->point_terms = arrays->unit_nodes =
+      arrays->gradient_start = {0};
   const SegmentTree tree = segmentTree(skeleton);
   for (std::size_t u = 0; u < paths.size(); ++u) addUnit(tree, musculature.units[u], paths[u], *arrays);
+  groupUnits(*arrays);
   arrays_ = std::move(arrays);
 }
 

@@ -34,20 +34,38 @@ void blockLengths(const ModelView<typename L::Real>& m, const double* q, void* s
 template <class L>
 GradientScratch<L> gradientScratch(const ModelView<double>& m, void* scratch) {
   using V = typename L::V;
-  static_assert(sizeof(Vector3Of<L>) == 3 * sizeof(V));
+  using Vector = Vector3Of<L>;
+  static_assert(sizeof(Vector) == 3 * sizeof(V));
   V* X = static_cast<V*>(scratch);
   V* rates = X + 12 * m.segment_count;
-  V* term = rates + 9 * m.segment_count;
-  return {X, rates, reinterpret_cast<Vector3Of<L>*>(term), term + 3 * m.max_terms};
+  V* point = rates + 9 * m.segment_count;
+  V* ahead = point + 3 * m.max_points;
+  V* distance = ahead + 3 * m.max_points;
+  V* term = distance + m.max_points;
+  V* wrench = term + 3 * m.max_terms;
+  return {X,
+          rates,
+          reinterpret_cast<Vector*>(point),
+          reinterpret_cast<Vector*>(ahead),
+          distance,
+          reinterpret_cast<Vector*>(term),
+          wrench,
+          0,
+          0};
 }
 
 template <class L>
 void laneGradients(const ModelView<double>& m, PostureLanes q, void* scratch, double* lengths_m, double* gradients,
                    std::size_t stride) {
-  const GradientScratch<L> s = gradientScratch<L>(m, scratch);
+  GradientScratch<L> s = gradientScratch<L>(m, scratch);
   lanePoses<L, false, true>(m, q, s.X, s.rates);
-  for (int u = 0; u < m.unit_count; ++u)
-    L::store(lengths_m + u * stride, unitGradient<L>(m, u, s, gradients, stride));
+  for (int group = 0; group < m.group_count; ++group) {
+    const int first = m.group_units[group], end = m.group_units[group + 1];
+    s.first_point = m.run_points[m.unit_runs[first]];
+    s.first_term = m.point_terms[s.first_point];
+    groupDirections<L>(m, first, end, s);
+    for (int u = first; u < end; ++u) L::store(lengths_m + u * stride, unitGradient<L>(m, u, s, gradients, stride));
+  }
 }
 
 template <class L>

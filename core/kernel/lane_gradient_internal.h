@@ -10,74 +10,84 @@
 namespace sinew {
 namespace {
 
-/// What a unit needs while it is worked on.
+// Square roots and divisions take long but can overlap. So units are worked on in groups: first all points, then all
+// unit vectors of the group, then each unit's wrenches.
+
+/// Working memory; arrays by point and by anchor count from the first of the group.
 template <class L>
 struct GradientScratch {
-  typename L::V *X, *rates;  ///< of the segments
-  Vector3Of<L>* term;        ///< anchors of the unit, weighted, in the world
-  typename L::V* wrench;     ///< by node of the unit: force, moment
+  typename L::V *X, *rates;     ///< of the segments
+  Vector3Of<L>*point, *ahead;   ///< of the path; unit vector from the point to the next of its run
+  typename L::V* distance;      ///< to the next
+  Vector3Of<L>* term;           ///< anchors of blended points, weighted, in the world
+  typename L::V* wrench;        ///< by node of the unit: force, moment
+  int first_point, first_term;  ///< of the group
 };
 
+/// A point of the path; where it is blended, its anchors are kept.
 template <class L>
-inline void addPull(const ModelView<double>& m, int point, int first_term, typename L::V gx, typename L::V gy,
-                    typename L::V gz, const GradientScratch<L>& s) {
-  for (int t = m.point_terms[point]; t < m.point_terms[point + 1]; ++t) {
-    if (m.term_slot[t] < 0) continue;
-    const double w = m.terms[t].w;
-    const Vector3Of<L>& r = s.term[t - first_term];
-    typename L::V* wrench = s.wrench + 6 * m.term_slot[t];
-    wrench[0] += gx * w, wrench[1] += gy * w, wrench[2] += gz * w;
-    wrench[3] += r.y * gz - r.z * gy, wrench[4] += r.z * gx - r.x * gz, wrench[5] += r.x * gy - r.y * gx;
-  }
-}
-
-/// A point of the path, its anchors kept.
-template <class L>
-inline Vector3Of<L> keptPoint(const ModelView<double>& m, int point, int first_term, const GradientScratch<L>& s) {
+inline Vector3Of<L> keptPoint(const ModelView<double>& m, int point, const GradientScratch<L>& s) {
   const int first = m.point_terms[point], end = m.point_terms[point + 1];
-  if (end - first == 1) return s.term[first - first_term] = single<L>(m.terms[first], s.X + m.term_offset[first]);
+  if (end - first == 1) return single<L>(m.terms[first], s.X + m.term_offset[first]);
   Vector3Of<L> p{L::set(0), L::set(0), L::set(0)};
   for (int t = first; t < end; ++t) {
     const Vector3Of<L> more = weighted<L>(m.terms[t], s.X + m.term_offset[t]);
-    s.term[t - first_term] = more;
+    s.term[t - s.first_term] = more;
     p.x += more.x, p.y += more.y, p.z += more.z;
   }
   return p;
 }
 
-/// Adds the wrenches of one run of points to the unit's nodes; returns its length.
+/// Points, distances and unit vectors of a group of units.
 template <class L>
-inline typename L::V runWrenches(const ModelView<double>& m, int run, int first_term, const GradientScratch<L>& s) {
+void groupDirections(const ModelView<double>& m, int first_unit, int end_unit, const GradientScratch<L>& s) {
   using V = typename L::V;
   const V zero = L::set(0), one = L::set(1);
-  const int first = m.run_points[run], last = m.run_points[run + 1] - 1;
-  V length = zero, ux = zero, uy = zero, uz = zero;
-  Vector3Of<L> a = keptPoint<L>(m, first, first_term, s);
-  for (int p = first; p < last; ++p) {
-    const Vector3Of<L> b = keptPoint<L>(m, p + 1, first_term, s);
-    V dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
-    const V square = dx * dx + dy * dy + dz * dz, distance = L::sqrt(square);
-    // Two points in one place pull in no direction.
-    const V inverse = square > zero ? one / distance : zero;
-    length += distance;
-    dx *= inverse, dy *= inverse, dz *= inverse;
-    addPull<L>(m, p, first_term, ux - dx, uy - dy, uz - dz, s);
-    ux = dx, uy = dy, uz = dz;
-    a = b;
+  const int end_run = m.unit_runs[end_unit], end_point = m.run_points[end_run];
+  for (int p = s.first_point; p < end_point; ++p) s.point[p - s.first_point] = keptPoint<L>(m, p, s);
+  for (int run = m.unit_runs[first_unit]; run < end_run; ++run)
+    for (int i = m.run_points[run] - s.first_point; i < m.run_points[run + 1] - 1 - s.first_point; ++i) {
+      const Vector3Of<L>&a = s.point[i], &b = s.point[i + 1];
+      const V dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+      const V square = dx * dx + dy * dy + dz * dz, distance = L::sqrt(square);
+      // Two points in one place pull in no direction.
+      const V inverse = square > zero ? one / distance : zero;
+      s.distance[i] = distance;
+      s.ahead[i] = {dx * inverse, dy * inverse, dz * inverse};
+    }
+}
+
+/// The pull g on a point, handed to the segments of its anchors.
+template <class L>
+inline void addPull(const ModelView<double>& m, int point, const Vector3Of<L>& g, const GradientScratch<L>& s) {
+  const int first = m.point_terms[point], end = m.point_terms[point + 1];
+  const bool blended = end - first > 1;
+  for (int t = first; t < end; ++t) {
+    if (m.term_slot[t] < 0) continue;
+    const double w = m.terms[t].w;
+    const Vector3Of<L>& r = blended ? s.term[t - s.first_term] : s.point[point - s.first_point];  // weighted
+    typename L::V* wrench = s.wrench + 6 * m.term_slot[t];
+    wrench[0] += g.x * w, wrench[1] += g.y * w, wrench[2] += g.z * w;
+    wrench[3] += r.y * g.z - r.z * g.y, wrench[4] += r.z * g.x - r.x * g.z, wrench[5] += r.x * g.y - r.y * g.x;
   }
-  addPull<L>(m, last, first_term, ux, uy, uz, s);
-  return length;
 }
 
 /// Wrenches of the unit's nodes; returns its length.
 template <class L>
 inline typename L::V unitWrenches(const ModelView<double>& m, int unit, const GradientScratch<L>& s) {
   for (int i = 0; i < 6 * (m.unit_nodes[unit + 1] - m.unit_nodes[unit]); ++i) s.wrench[i] = L::set(0);
-  const int first_run = m.unit_runs[unit], end_run = m.unit_runs[unit + 1];
   typename L::V length = L::set(m.unit_constant_m[unit]);
-  if (first_run == end_run) return length;
-  const int first_term = m.point_terms[m.run_points[first_run]];
-  for (int run = first_run; run < end_run; ++run) length += runWrenches<L>(m, run, first_term, s);
+  for (int run = m.unit_runs[unit]; run < m.unit_runs[unit + 1]; ++run) {
+    const int last = m.run_points[run + 1] - 1;
+    Vector3Of<L> behind{L::set(0), L::set(0), L::set(0)};
+    for (int p = m.run_points[run]; p < last; ++p) {
+      const Vector3Of<L>& u = s.ahead[p - s.first_point];
+      addPull<L>(m, p, {behind.x - u.x, behind.y - u.y, behind.z - u.z}, s);
+      length += s.distance[p - s.first_point];
+      behind = u;
+    }
+    addPull<L>(m, last, behind, s);
+  }
   return length;
 }
 

@@ -63,13 +63,16 @@ struct ModelView {
   const int* term_slot;    ///< node of the unit, -1 = the segment where the wrenches cancel
   const int* unit_nodes;   ///< unit_count + 1; leaves first
   const NodeView* nodes;
-  int max_terms, max_nodes;  ///< of one unit
+  int group_count;
+  const int* group_units;     ///< group_count + 1; units whose gradients are worked on together
+  int max_points, max_terms;  ///< of one group
+  int max_nodes;              ///< of one unit
 };
 
 /// Registers that a kernel needs as working memory.
 template <class Real>
 constexpr std::size_t scratchRegisters(const ModelView<Real>& m) {
-  return static_cast<std::size_t>(m.segment_count * (12 + 9) + m.max_terms * 3 + m.max_nodes * 6);
+  return static_cast<std::size_t>(m.segment_count * (12 + 9) + m.max_points * 7 + m.max_terms * 3 + m.max_nodes * 6);
 }
 
 }  // namespace sinew

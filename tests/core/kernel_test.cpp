@@ -157,6 +157,17 @@ TEST(Kernel, UnitsOfManyBlendedPointsAreNoSpecialCase) {
   }
 }
 
+TEST(Kernel, AUnitOnOneBoneHasAConstantLengthAndTurnsNothing) {
+  const int femur = skeleton().segmentIndex("femur_r");
+  MusculotendonUnit unit{.name = "strip", .optimal_fiber_length_m = 1};
+  for (const double y : {0.0, -0.1, -0.3}) unit.path.push_back({PathPointRole::Via, {{femur, 1, {0, y, 0}}}, "", ""});
+  const CompiledModel model{skeleton(), Musculature{{unit}}};
+  PoseTable lengths, gradients;
+  batchGradients(model, PoseTable{somePostures()}, lengths, gradients);
+  for (std::size_t i = 0; i < lengths.poseCount(); ++i) EXPECT_NEAR(lengths(i, 0), 0.3, 1e-15);
+  EXPECT_EQ(gradients.entryCount(), 0u);
+}
+
 TEST(Kernel, AnIsaIsChosenByNameAndAWrongOneRefused) {
   ASSERT_EQ(setenv("SINEW_ISA", "baseline", 1), 0);
   EXPECT_EQ(chosenIsa(), Isa::Baseline);
