@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/muscle/hill.h"
+#include "core/muscle/muscle_path.h"
 #include "core/rom/movement_internal.h"
 
 namespace sinew {
@@ -110,9 +111,15 @@ PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, cons
       changed = clearWay(norms.test(target.test), target, options.step_deg, fit) || changed;
   }
   for (const RomTarget& target : targets) fit.readings.push_back(simulateRomTest(fit.model, norms.test(target.test)));
-  const auto X_WB = segmentPoses(skeleton, zeroPosture(skeleton));
-  for (std::size_t i = 0; i < fit.lengths.size(); ++i)
-    fit.lengths[i].resting_normalized_fiber = normalizedFiber(fit.model.musculature.units[i], X_WB);
+  const auto standing = segmentPoses(skeleton, zeroPosture(skeleton));
+  for (std::size_t i = 0; i < fit.lengths.size(); ++i) {
+    const MusculotendonUnit& unit = fit.model.musculature.units[i];
+    const auto fiber = [&](double path_m) { return equilibrium(unit, path_m, 0).normalized_fiber_length; };
+    LengthEstimate& e = fit.lengths[i];
+    e.resting_normalized_fiber = fiber(pathLength(unit, standing));
+    e.shortest_normalized_fiber = fiber(e.shortest_path_m);
+    e.longest_normalized_fiber = fiber(e.longest_path_m);
+  }
   return fit;
 }
 

@@ -96,10 +96,6 @@ double relaxingFactor(const MusculotendonUnit& unit, double path_m, double share
   return relaxedScale(unit, path_m, 1, share);
 }
 
-double normalizedFiber(const MusculotendonUnit& unit, const std::vector<RigidTransform>& X_WB) {
-  return equilibrium(unit, pathLength(unit, X_WB), 0).normalized_fiber_length;
-}
-
 Musculature withLengths(Musculature musculature, const std::vector<LengthEstimate>& estimates) {
   require(estimates.size() == musculature.units.size(), "withLengths: one estimate a unit");
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -116,14 +112,16 @@ std::string lengthsCsv(const std::vector<LengthEstimate>& estimates, const std::
       made_from +
       ": longest path over the pose set, published fibre : tendon ratio, no pull at rest\n"
       "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,shortest_path_m,scale_of_published,"
-      "tendon_share_of_published,relaxed,standing_normalized_fiber_length\n";
+      "tendon_share_of_published,relaxed,standing_normalized_fiber_length,shortest_normalized_fiber_length,"
+      "longest_normalized_fiber_length\n";
   const auto up = [](double length_m) { return std::ceil(length_m * 1e7) * 1e-7; };
   for (const LengthEstimate& e : estimates) {
     if (!e.unit.ends_with("_r")) continue;
     char line[256];
-    std::snprintf(line, sizeof line, "%s,%.7f,%.7f,%.5f,%.5f,%.3f,%.3f,%s,%.3f\n", e.unit.c_str(),
+    std::snprintf(line, sizeof line, "%s,%.7f,%.7f,%.5f,%.5f,%.3f,%.3f,%s,%.3f,%.3f,%.3f\n", e.unit.c_str(),
                   up(e.optimal_fiber_length_m), up(e.tendon_slack_length_m), e.longest_path_m, e.shortest_path_m,
-                  e.scale, e.ratio, e.relaxed ? "yes" : "no", e.resting_normalized_fiber);
+                  e.scale, e.ratio, e.relaxed ? "yes" : "no", e.resting_normalized_fiber, e.shortest_normalized_fiber,
+                  e.longest_normalized_fiber);
     csv += line;
   }
   return csv;

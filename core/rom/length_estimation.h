@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct LengthEstimate {
   double ratio = 1;                                ///< of the given ratio tendon : fibre
   bool relaxed = false;                            ///< lengthened for a resting posture
   double resting_normalized_fiber = 0;             ///< in the first resting posture
+  /// Passive, over the postures; NaN until the lengths are final (fitPreset()).
+  double shortest_normalized_fiber = std::numeric_limits<double>::quiet_NaN(),
+         longest_normalized_fiber = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct LengthEstimationOptions {
@@ -43,9 +47,6 @@ Musculature withLengths(Musculature musculature, const std::vector<LengthEstimat
 /// Smallest factor >= 1 on fibre and tendon with which the unit's passive force at this path length is at most
 /// `share` of F_max.
 double relaxingFactor(const MusculotendonUnit& unit, double path_m, double share);
-
-/// Passive fibre length in optimal lengths.
-double normalizedFiber(const MusculotendonUnit& unit, const std::vector<RigidTransform>& X_WB);
 
 /// The estimates of the right side, as muscles/reference_lengths*.csv hold them; lengths rounded up to 0.1 um, so
 /// that no posture of the set becomes invalid.
