@@ -106,12 +106,4 @@ PostureSweep sweepPostures(const CompiledModel& model, std::size_t count, const 
   return sweep;
 }
 
-std::vector<double> longestPaths(const CompiledModel& model, std::span<const Posture> postures) {
-  require(!postures.empty(), "longestPaths: postures are given");
-  const auto read = [&](std::size_t first, PoseTable& table) {
-    for (std::size_t i = 0; i < table.poseCount(); ++i) table.set(i, postures[first + i]);
-  };
-  return sweepPostures(model, postures.size(), read).longest_m;
-}
-
 }  // namespace sinew

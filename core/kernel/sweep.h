@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "core/kernel/compiled_model.h"
@@ -30,8 +29,5 @@ struct PostureSweep {
 
 PostureSweep sweepPostures(const CompiledModel& model, std::size_t count, const PostureReader& read,
                            SweepPrecision precision = SweepPrecision::Double);
-
-/// Longest path of every unit over the postures [m].
-std::vector<double> longestPaths(const CompiledModel& model, std::span<const Posture> postures);
 
 }  // namespace sinew
