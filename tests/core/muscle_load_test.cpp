@@ -67,7 +67,7 @@ TEST(ReferenceMusculature, BlendedPointsAreTheSamePlaceForEveryAnchorAtTheZeroPo
       EXPECT_NEAR(sum, 1, 1e-12);
       blended += point.anchors.size() > 1;
     }
-  EXPECT_EQ(blended, 6);  // triceps behind both trochleae
+  EXPECT_GE(blended, 6);  // at least triceps behind both trochleae
 }
 
 TEST(ReferenceMusculature, AWrongNameIsAnsweredWithTheNearest) {

@@ -73,7 +73,7 @@ TEST(MusclePath, RevoluteMomentArmIsTheLeverOfTheLineOfAction) {
   const Joint& joint = skeleton().joints[skeleton().jointIndex("knee_r")];
   const RigidTransform X_WJ = clinical.X_WB[joint.parent] * joint.X_PJ;
   const Eigen::Vector3d axis_W = X_WJ.linear() * skeleton().coordinates[knee].axis;
-  for (const auto* name : {"biceps_femoris_short_head_r", "biceps_femoris_long_head_r", "semimembranosus_r"}) {
+  for (const auto* name : {"biceps_femoris_short_head_r", "biceps_femoris_long_head_r"}) {  // last segment crosses
     const auto& unit = musculature().unit(name);
     const auto points = pathPoints(unit, clinical.X_WB);
     const Eigen::Vector3d pull = (points[points.size() - 2] - points.back()).normalized();
