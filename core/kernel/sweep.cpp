@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
 #include "core/kernel/compiled_arrays_internal.h"
 
 namespace sinew {
