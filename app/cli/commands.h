@@ -29,6 +29,8 @@ void addFitCommand(Commands& commands);
 void addExamCommand(Commands& commands);
 void addModelCommands(Commands& commands);
 void addClearanceCommand(CLI::App& model, Commands& commands);  // of `sinew model`
+void addPictureCommand(CLI::App& model, Commands& commands);
+void addReplaceBonesCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 

@@ -95,6 +95,8 @@ void addModelCommands(Commands& commands) {
   addInfo(model, commands);
   addValidate(model, commands);
   addClearanceCommand(model, commands);
+  addPictureCommand(model, commands);
+  addReplaceBonesCommand(model, commands);
 }
 
 }  // namespace sinew

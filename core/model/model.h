@@ -17,7 +17,8 @@ namespace sinew {
 struct BoneMesh {
   std::string bone;  ///< "femur_r"
   int segment = -1;
-  TriangleMesh mesh;  ///< in the segment frame
+  TriangleMesh mesh;      ///< in the segment frame
+  bool supplied = false;  ///< by a person, in the place of the reference's
 };
 
 /// A whole musculoskeletal model: everything constant. Algorithms are free functions over (Model, Posture).
@@ -40,9 +41,12 @@ Model loadReferenceModel(const std::filesystem::path& resource_dir);
 /// F_max stays. @pre `reference` is undeformed. @throws InputError for a shape that the deformation cannot represent.
 Model deformedModel(const Model& reference, const ShapeParameters& shape);
 
-/// Versioned JSON ("sinew.model", version 1). Bone meshes are not stored: they follow from the shape.
+/// Versioned JSON ("sinew.model", version 1). Bone meshes are not stored, they follow from the shape; except those
+/// that a person supplied (replaceBones()): they go into a file beside it, NAME.bones.bin, of which the model file
+/// keeps the name and the SHA-256.
 void saveModel(const Model& model, const std::filesystem::path& file);
-/// `reference` supplies the bones. @throws InputError: where, field, expected, found.
+/// `reference` supplies the bones. @throws InputError: where, field, expected, found; supplied bones that are missing
+/// or changed included.
 Model loadModel(const std::filesystem::path& file, const Model& reference);
 /// "reference" or a file.
 Model loadModelByName(const std::string& name_or_file, const std::filesystem::path& resource_dir);

@@ -143,7 +143,8 @@ Warnings validateModel(const Model& model) {
       findings.add("length_factor", name, "is for no muscle or not positive: " + std::to_string(factor));
   Warnings warnings = findings.take();
   const bool sound = std::ranges::none_of(warnings, [](const Warning& w) { return w.code == "muscle_anchor"; });
-  if (sound && model.shape == ShapeParameters{}) {
+  const bool own_bones = std::ranges::any_of(*model.bones, &BoneMesh::supplied);  // a person's sides differ
+  if (sound && model.shape == ShapeParameters{} && !own_bones) {
     Findings mirror;
     checkMirror(model, X_WB, mirror);
     for (auto& w : mirror.take()) warnings.push_back(std::move(w));

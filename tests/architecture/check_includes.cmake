@@ -4,6 +4,7 @@ set(rules
   "imaging|\"(clinical|app)/|<(Q[A-Z]|vtk)"
   "clinical|\"app/|<(Q[A-Z]|vtk|opencv2|dcmtk)"
   "app/model|\"app/(scene|widgets|cli|report)/|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)"
+  "app/mesh|\"app/(model|scene|widgets|cli|report)/|<(Q[A-Z]|opencv2|dcmtk)"
   "app/scene|\"app/(model|widgets|cli|report)/|<(Q[A-Z]|opencv2|dcmtk)"
   "app/report|\"app/(widgets|cli)/|<(QWidget|QtWidgets|opencv2|dcmtk)"
   "app/widgets|\"app/cli/|<(opencv2|dcmtk)"

@@ -1,5 +1,5 @@
-// Dimensions of the shoulder girdle and the arm, measured on the meshes; figures: Ludewig 2009, Boileau and Walch 1997,
-// Robertson 2000, Schemitsch 1992, Trotter and Gleser 1952.
+// Dimensions of the shoulder girdle and the arm, measured on the meshes; figures: Ludewig 2009, Boileau and Walch
+// 1997, Robertson 2000, Schemitsch 1992, Trotter and Gleser 1952.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,14 +10,17 @@
 namespace sinew::test {
 namespace {
 
+constexpr double kDeg = 180 / 3.14159265358979;
+
 double levelled_deg(double opposite, double adjacent) {
-  return std::atan2(opposite, adjacent) * 180 / 3.14159265358979;
+  return kDeg * std::atan2(opposite, adjacent);
 }
 
 TEST(BoneDimensions, Clavicle) {
   const Vector3d ends = landmark_mm("clavicle_acromial_end_r");
   std::vector<Vector3d> line;
-  for (double share = 0.06; share < 0.97; share += 0.05) line.push_back(section("clavicle", share * ends, ends).center);
+  for (double share = 0.06; share < 0.97; share += 0.05)
+    line.push_back(section("clavicle", share * ends, ends).center);
   const Vector3d chord = line.back() - line.front();
   const Vector3d side = across(kX, chord).normalized();
   double ahead = 0, behind = 0;  // the two bends of the S
@@ -26,12 +29,12 @@ TEST(BoneDimensions, Clavicle) {
     ahead = std::max(ahead, off), behind = std::min(behind, off);
   }
   const Section middle = section("clavicle", 0.5 * ends, ends);
-  expectDimensions("clavicle",
-                   {{"length", 150, 152, extent_mm(points_mm("clavicle"), ends)},
-                    {"S-curve, both bends", 12, 15, ahead - behind},
-                    {"retraction", 20, 24, levelled_deg(-ends.x(), ends.z())},
-                    {"elevation", 6, 10, levelled_deg(ends.y(), std::hypot(ends.x(), ends.z()))},
-                    {"mid diameter", 12, 14, (extent_mm(middle.points, kY) + extent_mm(middle.points, across(kX, ends))) / 2}});
+  expectDimensions("clavicle", {{"length", 150, 152, extent_mm(points_mm("clavicle"), ends)},
+                                {"S-curve, both bends", 12, 15, ahead - behind},
+                                {"retraction", 20, 24, levelled_deg(-ends.x(), ends.z())},
+                                {"elevation", 6, 10, levelled_deg(ends.y(), std::hypot(ends.x(), ends.z()))},
+                                {"mid diameter", 12, 14,
+                                 (extent_mm(middle.points, kY) + extent_mm(middle.points, across(kX, ends))) / 2}});
 }
 
 TEST(BoneDimensions, Scapula) {
@@ -42,19 +45,20 @@ TEST(BoneDimensions, Scapula) {
   const auto cavity = points_mm("scapula", [&](const Vector3d& p) { return (p - joint).norm() < 27; });
   const Vector3d facing = (joint - mean(cavity)).normalized();
   // Outline of the cavity: a section 4 mm under its face.
-  const auto rim = section("scapula", joint - 27.5 * facing, facing, [&](const Vector3d& p) { return (p - joint).norm() < 34; }).points;
+  const auto rim = section("scapula", joint - 27.5 * facing, facing, [&](const Vector3d& p) {
+                     return (p - joint).norm() < 34;
+                   }).points;
   const Vector3d height_axis = across(kY, facing).normalized(), breadth_axis = facing.cross(height_axis);
   const Vector3d medial = furthest(points_mm("scapula", between(kY, -8, 4)), -kZ), line = glenoid - medial;
   double under = 1e9;
   for (const auto& p : points_mm("scapula", [&](const Vector3d& q) { return q.y() > 0 && q.z() > 138; }))
     under = std::min(under, (p - joint).norm());
-  expectDimensions("scapula",
-                   {{"superior to inferior angle", 155, 160, extent_mm(points_mm("scapula"), angles)},
-                    {"root of the spine to the glenoid", 104, 110, (glenoid - medial).norm()},
-                    {"glenoid height", 38, 38, extent_mm(rim, height_axis)},
-                    {"glenoid breadth", 27, 27, extent_mm(rim, breadth_axis)},
-                    {"plane in front of the frontal", 30, 36, levelled_deg(line.x(), line.z())},
-                    {"acromion to humeral head", 9, 10, under - 24}});
+  expectDimensions("scapula", {{"superior to inferior angle", 155, 160, extent_mm(points_mm("scapula"), angles)},
+                               {"root of the spine to the glenoid", 104, 110, (glenoid - medial).norm()},
+                               {"glenoid height", 38, 38, extent_mm(rim, height_axis)},
+                               {"glenoid breadth", 27, 27, extent_mm(rim, breadth_axis)},
+                               {"plane in front of the frontal", 30, 36, levelled_deg(line.x(), line.z())},
+                               {"acromion to humeral head", 9, 10, under - 24}});
 }
 
 TEST(BoneDimensions, Humerus) {
@@ -73,16 +77,17 @@ TEST(BoneDimensions, Humerus) {
   std::vector<Vector3d> shaft;
   for (double y = -70; y >= -160; y -= 10) shaft.push_back(section("humerus", y * kY, kY).center);
   const Vector3d canal = fittedDirection(shaft);
-  const Vector3d epicondyles = landmark_mm("humeral_lateral_epicondyle_r") - landmark_mm("humeral_medial_epicondyle_r");
+  const Vector3d epicondyles =
+      landmark_mm("humeral_lateral_epicondyle_r") - landmark_mm("humeral_medial_epicondyle_r");
   const Vector3d offset = across(head.center - mean(shaft), canal);
   const Section middle = section("humerus", -150 * kY, kY);
   // The trochlea ends at its medial lip and at the ridge beside the capitulum.
   const Vector3d lip = furthest(points_mm("humerus", between(kY, -306, -294)), -kZ);
   const Vector3d lateral_ridge = furthest(points_mm("humerus", between(kZ, 3, 10) && between(kX, -6, 10)), -kY);
-  const auto capitulum = points_mm("humerus", [](const Vector3d& p) {
-    return p.z() > 13 && p.z() < 26 && p.y() < -283 && p.x() > 0;
-  });
-  std::vector<Vector3d> waist = section("humerus", -4 * kZ, kZ, [](const Vector3d& p) { return p.y() < -286; }).points;
+  const auto capitulum =
+      points_mm("humerus", [](const Vector3d& p) { return p.z() > 13 && p.z() < 26 && p.y() < -283 && p.x() > 0; });
+  std::vector<Vector3d> waist =
+      section("humerus", -4 * kZ, kZ, [](const Vector3d& p) { return p.y() < -286; }).points;
   expectDimensions("humerus",
                    {{"head diameter", 46, 48, 2 * head.radius},
                     {"head thickness", 18, 19, apex.dot(neck) - mean(groove).dot(neck)},
@@ -100,10 +105,13 @@ TEST(BoneDimensions, Humerus) {
 }
 
 TEST(BoneDimensions, Ulna) {
-  const auto notch = section("ulna", -4 * kZ, kZ, [](const Vector3d& p) { return std::hypot(p.x(), p.y()) < 12.6 && p.x() < 4; });
+  double notch = 0;  // from the axis of the elbow to the floor of the notch
+  const std::vector<double> directions_deg{150, 165, 180, 195, 210, 225, 240};
+  for (const double a : directions_deg)
+    notch += reach_mm("ulna", -4 * kZ, {std::cos(a / kDeg), std::sin(a / kDeg), 0}) / double(directions_deg.size());
   const Section middle = section("ulna", -130 * kY, kY);
   expectDimensions("ulna", {{"length", 265, 270, extent_mm(points_mm("ulna"), kY)},
-                            {"trochlear notch radius", 11, 12, fittedCircle(notch.points, kZ).radius},
+                            {"trochlear notch radius", 11, 12, notch},
                             {"mid diameter, sagittal", 14, 16, extent_mm(middle.points, kX)},
                             {"mid diameter, frontal", 14, 16, extent_mm(middle.points, kZ)}});
 }
@@ -120,15 +128,23 @@ TEST(BoneDimensions, Radius) {
   }
   const Vector3d styloid = furthest(all, -kY);
   const Vector3d ulnar = furthest(points_mm("radius", between(kZ, -40, -24)), -kY);
-  const Vector3d palmar = furthest(points_mm("radius", between(kX, 5, 20) && between(kZ, -20, -8)), -kY);
-  const Vector3d dorsal = furthest(points_mm("radius", between(kX, -20, -5) && between(kZ, -20, -8)), -kY);
-  expectDimensions("radius", {{"length", 245, 252, extent_mm(all, kY)},
-                              {"head diameter", 22, 23, extent_mm(points_mm("radius", between(kY, -5, 5)), kZ)},
-                              {"neck diameter", 14, 14, (extent_mm(at(-17).points, kX) + extent_mm(at(-17).points, kZ)) / 2},
-                              {"bow", 12, 15, bow},
-                              {"distal width", 32, 34, extent_mm(points_mm("radius", between(kY, -234, -227)), kZ)},
-                              {"volar tilt", 11, 11, levelled_deg(palmar.y() - dorsal.y(), palmar.x() - dorsal.x())},
-                              {"radial inclination", 23, 23, levelled_deg(ulnar.y() - styloid.y(), styloid.z() - ulnar.z()), 10.4}});
+  const auto rims = section("radius", -14 * kZ, kZ, between(kY, -250, -225)).points;  // sagittal, through the facets
+  const auto rim = [&](double side) {
+    std::vector<Vector3d> half;
+    for (const auto& p : rims)
+      if (side * p.x() > 4) half.push_back(p);
+    return furthest(half, -kY);
+  };
+  const Vector3d palmar = rim(1), dorsal = rim(-1);
+  expectDimensions(
+      "radius",
+      {{"length", 245, 252, extent_mm(all, kY)},
+       {"head diameter", 22, 23, extent_mm(points_mm("radius", between(kY, -5, 5)), kZ)},
+       {"neck diameter", 14, 14, (extent_mm(at(-17).points, kX) + extent_mm(at(-17).points, kZ)) / 2},
+       {"bow", 12, 15, bow},
+       {"distal width", 32, 34, extent_mm(points_mm("radius", between(kY, -234, -227)), kZ)},
+       {"volar tilt", 11, 11, levelled_deg(palmar.y() - dorsal.y(), palmar.x() - dorsal.x())},
+       {"radial inclination", 23, 23, levelled_deg(ulnar.y() - styloid.y(), styloid.z() - ulnar.z()), 10.4}});
 }
 
 TEST(BoneDimensions, Hand) {

@@ -24,8 +24,7 @@ std::vector<Vector3d> centerLine(const std::string& bone, double from_mm, double
 double sagitta(const std::vector<Vector3d>& line, const Vector3d& axis) {
   const Vector3d chord = line.back() - line.front();
   double largest = 0;
-  for (const auto& p : line)
-    largest = std::max(largest, across(p - line.front(), chord).dot(axis));
+  for (const auto& p : line) largest = std::max(largest, across(p - line.front(), chord).dot(axis));
   return largest;
 }
 
@@ -34,7 +33,8 @@ TEST(BoneDimensions, Femur) {
   // Middle of the neck: section across the line from the head to the base of the neck.
   const Vector3d base = landmark_mm("femoral_neck_base_r"), along = base.normalized();
   const auto at = [&](double share) {
-    return section("femur", share * base, along, [&](const Vector3d& p) { return (p - share * base).norm() < 26; }).center;
+    return section("femur", share * base, along, [&](const Vector3d& p) { return (p - share * base).norm() < 26; })
+        .center;
   };
   const Vector3d neck = (at(0.55) - head.center).normalized();
   const auto shaft = centerLine("femur", -130, -250);
@@ -42,11 +42,16 @@ TEST(BoneDimensions, Femur) {
   const Vector3d condyles = furthest(points_mm("femur", between(kY, -440, -405) && between(kZ, 10, 40)), -kX) -
                             furthest(points_mm("femur", between(kY, -440, -405) && between(kZ, -40, -10)), -kX);
   const Vector3d neck_flat = across(neck, kY), condyles_flat = across(condyles, kY);
-  const double anteversion = std::copysign(angle_deg(neck_flat, condyles_flat), condyles_flat.cross(neck_flat).dot(-kY));
-  const double neck_shaft = angle_deg(-neck, shaft_axis), offset = across(shaft_middle - head.center, shaft_axis).norm();
+  const double anteversion =
+      std::copysign(angle_deg(neck_flat, condyles_flat), condyles_flat.cross(neck_flat).dot(-kY));
+  const double neck_shaft = angle_deg(-neck, shaft_axis),
+               offset = across(shaft_middle - head.center, shaft_axis).norm();
   const Vector3d normal = kX;
   const auto condyleCircle = [&](double z_mm) {
-    return fittedCircle(section("femur", z_mm * kZ, kZ, [](const Vector3d& p) { return p.x() < -8 && p.y() < -412; }).points, kZ).radius;
+    return fittedCircle(
+               section("femur", z_mm * kZ, kZ, [](const Vector3d& p) { return p.x() < -8 && p.y() < -412; }).points,
+               kZ)
+        .radius;
   };
   const Section middle = section("femur", -200 * kY, kY);
   const Section groove = section("femur", -412 * kY, kY, [](const Vector3d& p) { return p.x() > 8; });
@@ -103,27 +108,28 @@ TEST(BoneDimensions, Tibia) {
   const Section middle = section("tibia", -250 * kY, kY);
   const auto ridge = points_mm("tibia", between(kY, -75, -40) && between(kZ, -8, 14));
   const double prominence = furthest(ridge, kX).x();
-  const Vector3d tuberosity = furthest(points_mm("tibia", between(kX, prominence - 2, 60) && between(kZ, -8, 14)), kY);
+  const Vector3d tuberosity =
+      furthest(points_mm("tibia", between(kX, prominence - 2, 60) && between(kZ, -8, 14)), kY);
   const Vector3d distal_axis{0.951, 0, 0.309}, distal_across{-0.309, 0, 0.951};  // of the ankle: forwards, sideways
-  const auto distal = section("tibia", -390 * kY, kY).points;  // above the malleolus
-  const auto plafond = section("tibia", -400 * kY, kY, [&](const Vector3d& p) { return p.dot(distal_across) > -15; }).points;
+  const auto distal = section("tibia", -390 * kY, kY).points;                    // above the malleolus
+  const auto plafond =
+      section("tibia", -400 * kY, kY, [&](const Vector3d& p) { return p.dot(distal_across) > -15; }).points;
   std::vector<Vector3d> ankle = points_mm("tibia", between(kY, -440, -415));
   const auto lateral = points_mm("fibula", between(kY, -440, -415));
   ankle.insert(ankle.end(), lateral.begin(), lateral.end());
-  expectDimensions(
-      "tibia", {{"length without spines and malleolus", 379, 379,
-                 landmark_mm("tibial_plafond_center_r").y() * -1 + mean(surfaces).y()},
-                {"plateau width", 75, 75, extent_mm(plateau, kZ)},
-                {"plateau depth", 50, 50, extent_mm(rim, level)},
-                {"posterior slope", 7, 9, angle_deg(slope, kY)},
-                {"plateau below the knee axis", 28, 28, -mean(surfaces).y()},
-                {"torsion", 23, 30, turn(behind) - turn(malleoli)},
-                {"mid shaft, sagittal", 29, 29, extent_mm(middle.points, kX)},
-                {"mid shaft, frontal", 23, 23, extent_mm(middle.points, kZ)},
-                {"tuberosity below the plateau", 22, 27, mean(surfaces).y() - tuberosity.y()},
-                {"distal width", 45, 48, extent_mm(distal, distal_across)},
-                {"distal depth", 38, 40, extent_mm(plafond, distal_axis)},
-                {"malleolar width", 68, 72, extent_mm(ankle, distal_across)}});
+  expectDimensions("tibia", {{"length without spines and malleolus", 379, 379,
+                              landmark_mm("tibial_plafond_center_r").y() * -1 + mean(surfaces).y()},
+                             {"plateau width", 75, 75, extent_mm(plateau, kZ)},
+                             {"plateau depth", 50, 50, extent_mm(rim, level)},
+                             {"posterior slope", 7, 9, angle_deg(slope, kY)},
+                             {"plateau below the knee axis", 28, 28, -mean(surfaces).y()},
+                             {"torsion", 23, 30, turn(behind) - turn(malleoli)},
+                             {"mid shaft, sagittal", 29, 29, extent_mm(middle.points, kX)},
+                             {"mid shaft, frontal", 23, 23, extent_mm(middle.points, kZ)},
+                             {"tuberosity below the plateau", 22, 27, mean(surfaces).y() - tuberosity.y()},
+                             {"distal width", 45, 48, extent_mm(distal, distal_across)},
+                             {"distal depth", 38, 40, extent_mm(plafond, distal_axis)},
+                             {"malleolar width", 68, 72, extent_mm(ankle, distal_across)}});
 }
 
 TEST(BoneDimensions, Fibula) {

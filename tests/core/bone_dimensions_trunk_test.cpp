@@ -1,5 +1,5 @@
-// Dimensions of pelvis, spine, rib cage and skull, measured on the meshes; figures: Bell 1990, Murray 1993, Legaye 1998,
-// Panjabi 1991 and 1992, Berry 1987, de Leva 1996.
+// Dimensions of pelvis, spine, rib cage and skull, measured on the meshes; figures: Bell 1990, Murray 1993, Legaye
+// 1998, Panjabi 1991 and 1992, Berry 1987, de Leva 1996.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kDeg = 180 / 3.14159265358979;
 
-/// Opening of the acetabulum: normal of the plane through the rim, out of the socket. The rim is where the sphere of the
-/// socket ends outside; far points (notch, fossa) are dropped in turns.
+/// Opening of the acetabulum: normal of the plane through the rim, out of the socket. The rim is where the sphere of
+/// the socket ends outside; far points (notch, fossa) are dropped in turns.
 Vector3d acetabularAxis() {
   const TriangleMesh& mesh = boneMesh("hip_bone");
   const Vector3d center = landmark_mm("acetabulum_center_r");
@@ -29,7 +29,8 @@ Vector3d acetabularAxis() {
     std::vector<Vector3d> kept;
     for (const auto& p : rim) {
       const bool first = turn == 0;
-      if (first ? (p - center).dot(axis) > -12 : std::abs((p - middle).dot(axis)) < std::max(4, 12 - turn)) kept.push_back(p);
+      if (first ? (p - center).dot(axis) > -12 : std::abs((p - middle).dot(axis)) < std::max(4, 12 - turn))
+        kept.push_back(p);
     }
     middle = mean(kept);
     axis = fittedNormal(kept);
@@ -43,28 +44,32 @@ TEST(BoneDimensions, Pelvis) {
   const Vector3d asis = furthest(points_mm("hip_bone", between(kY, 66, 95)), kX);
   const Vector3d psis = furthest(points_mm("hip_bone", between(kY, 88, 120)), -kX);
   const Vector3d center = landmark_mm("acetabulum_center_r");
-  const Sphere socket = fittedSphere(points_mm("hip_bone", [&](const Vector3d& p) { return (p - center).norm() < 27; }));
+  const Sphere socket =
+      fittedSphere(points_mm("hip_bone", [&](const Vector3d& p) { return (p - center).norm() < 27; }));
   const Vector3d ischium = furthest(hip, -kY);
   // The pubic arch in its own plane: from below the symphysis to both ischial tips.
   const Vector3d arch = across(furthest(points_mm("hip_bone", between(kZ, 0, 5)), Vector3d{-0.52, -0.85, 0}), kZ);
   const Vector3d opening = acetabularAxis();
-  expectDimensions("pelvis", {{"inter-ASIS", 240, 240, 2 * asis.z()},
-                              {"bi-iliac", 280, 285, 2 * furthest(points_mm("hip_bone", between(kY, 60, 130)), kZ).z()},
-                              {"inter-PSIS", 80, 90, 2 * psis.z()},
-                              {"hip centre spacing", 172, 172, 2 * socket.center.z()},
-                              {"depth ASIS-PSIS", 150, 150, asis.x() - psis.x()},
-                              {"acetabular diameter", 52, 54, 2 * socket.radius},
-                              {"height crest-ischium", 200, 215, extent_mm(hip, kY)},
-                              {"ischial tips", 110, 120, 2 * ischium.z()},
-                              {"subpubic angle, to the ischial tips", 65, 75, 2 * angle_deg(ischium - arch, across(ischium - arch, kZ))},
-                              {"acetabular inclination", 40, 45, kDeg * std::atan2(opening.z(), -opening.y())},
-                              {"acetabular anteversion", 17, 20, kDeg * std::asin(opening.x())}});
+  expectDimensions(
+      "pelvis",
+      {{"inter-ASIS", 240, 240, 2 * asis.z()},
+       {"bi-iliac", 280, 285, 2 * furthest(points_mm("hip_bone", between(kY, 60, 130)), kZ).z()},
+       {"inter-PSIS", 80, 90, 2 * psis.z()},
+       {"hip centre spacing", 172, 172, 2 * socket.center.z()},
+       {"depth ASIS-PSIS", 150, 150, asis.x() - psis.x()},
+       {"acetabular diameter", 52, 54, 2 * socket.radius},
+       {"height crest-ischium", 200, 215, extent_mm(hip, kY)},
+       {"ischial tips", 110, 120, 2 * ischium.z()},
+       {"subpubic angle, to the ischial tips", 65, 75, 2 * angle_deg(ischium - arch, across(ischium - arch, kZ))},
+       {"acetabular inclination", 40, 45, kDeg * std::atan2(opening.z(), -opening.y())},
+       {"acetabular anteversion", 17, 20, kDeg * std::asin(opening.x())}});
 }
 
 TEST(BoneDimensions, Sacrum) {
   const Vector3d top{0.643, 0.766, 0}, forward{0.766, -0.643, 0};
   const auto endplate = points_mm("sacrum", [&](const Vector3d& p) {
-    return p.dot(top) > furthest(points_mm("sacrum", between(kZ, -8, 8) && between(kX, -50, -5)), top).dot(top) - 1.2 &&
+    return p.dot(top) >
+               furthest(points_mm("sacrum", between(kZ, -8, 8) && between(kX, -50, -5)), top).dot(top) - 1.2 &&
            std::abs(p.z()) < 20 && p.x() > -60;
   });
   Vector3d normal = fittedNormal(endplate);
@@ -143,8 +148,9 @@ TEST(BoneDimensions, LumbarColumn) {
     rows.push_back({bone + " transverse tip behind the body", 32, 36, center.x() - transverse.x()});
   }
   for (std::size_t i = 1; i < bodies.size(); ++i)
-    rows.push_back({"disc l" + std::to_string(6 - i) + "/l" + std::to_string(5 - i), 8, 12,
-                    (bodies[i].center - bodies[i - 1].center).norm() - (bodies[i].height + bodies[i - 1].height) / 2});
+    rows.push_back(
+        {"disc l" + std::to_string(6 - i) + "/l" + std::to_string(5 - i), 8, 12,
+         (bodies[i].center - bodies[i - 1].center).norm() - (bodies[i].height + bodies[i - 1].height) / 2});
   rows.push_back({"lordosis L1-S1", 55, 60, angle_deg(bodies.back().up, {0.643, 0.766, 0})});
   expectDimensions("lumbar", rows);
 }
@@ -155,7 +161,8 @@ TEST(BoneDimensions, ThoracicColumn) {
     const Body body = bodyOf(bone, leaning(up_x), 9);
     rows.push_back({std::string{bone} + " body width", 28, 42, body.width});
     rows.push_back({std::string{bone} + " body depth", 17, 32, body.depth});
-    if (std::string{bone} == "t4") rows.push_back({"t4 transverse tip, lateral", 30, 36, furthest(points_mm(bone), kZ).z()});
+    if (std::string{bone} == "t4")
+      rows.push_back({"t4 transverse tip, lateral", 30, 36, furthest(points_mm(bone), kZ).z()});
   }
   const Vector3d t4 = bodyOf("t4", leaning(0.182), 9).up;
   const Vector3d t12 = bodyOf("t12", leaning(-0.3), 9).up;
@@ -172,7 +179,8 @@ TEST(BoneDimensions, RibCage) {
   const Vector3d back = furthest(points_mm("t9", between(kZ, -5, 5)), -kX);
   const Vector3d front = furthest(points_mm("sternum", between(kY, 25, 60)), kX);
   expectDimensions("rib cage", {{"breadth at rib 8", 280, 300, 2 * furthest(points_mm("rib_8"), kZ).z()},
-                                {"depth at the xiphoid with 10 mm of skin and fat in front and behind", 220, 240, front.x() - back.x() + 20},
+                                {"depth at the xiphoid with 10 mm of skin and fat in front and behind", 220, 240,
+                                 front.x() - back.x() + 20},
                                 {"manubrium", 50, 50, (notch - angle).norm()},
                                 {"body of the sternum", 95, 105, (angle - xiphisternal).norm(), 120},
                                 {"xiphoid", 30, 30, (xiphisternal - xiphoid).norm()}});
@@ -195,7 +203,8 @@ TEST(BoneDimensions, Skull) {
   const auto above_nose = points_mm("skull", between(kY, 50, 140));  // glabella to opisthocranion
   expectDimensions("skull", {{"head length with scalp", 195, 197, extent_mm(above_nose, kX) + 2 * kScalp_mm},
                              {"head breadth with scalp", 152, 155, extent_mm(skull, kZ) + 2 * kScalp_mm},
-                             {"vertex to chin", 230, 230, furthest(skull, kY).y() - furthest(points_mm("mandible"), -kY).y(), 202}});
+                             {"vertex to chin", 230, 230,
+                              furthest(skull, kY).y() - furthest(points_mm("mandible"), -kY).y(), 202}});
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ TEST(BoneMeshes, AreClosedAndFaceOutwards) {
   for (const auto& bone : stored()) {
     EXPECT_TRUE(isWatertight(bone.mesh)) << bone.bone;
     EXPECT_GT(signedVolume_m3(bone.mesh), 5e-7) << bone.bone;  // half a millilitre
-    EXPECT_GE(bone.mesh.triangles.size(), 1400u) << bone.bone;
-    EXPECT_LE(bone.mesh.triangles.size(), 10500u) << bone.bone;
+    EXPECT_GE(bone.mesh.triangles.size(), 2000u) << bone.bone;
+    EXPECT_LE(bone.mesh.triangles.size(), 10000u) << bone.bone;
   }
 }
 

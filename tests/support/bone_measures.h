@@ -8,7 +8,8 @@
 
 namespace sinew::test {
 
-// Rulers for the shipped bone surfaces, right side and midline, in the frame of their segment. Millimetres and degrees.
+// Rulers for the shipped bone surfaces, right side and midline, in the frame of their segment. Millimetres and
+// degrees.
 
 using Eigen::Vector3d;
 inline const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
@@ -62,7 +63,8 @@ Vector3d across(const Vector3d& v, const Vector3d& axis);
 struct Dimension {
   std::string name;
   double low, high, measured;
-  /// Where the stated figures contradict each other: what follows from the others, and is held to instead of low, high.
+  /// Where the stated figures contradict each other: what follows from the others, and is held to instead of low,
+  /// high.
   double follows = 0;
 };
 /// Checks that every one lies in its range or within 3 % of it, and prints the table (a star marks
