@@ -2,10 +2,9 @@
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "core/file.h"
 #include "core/muscle/controllability.h"
 #include "core/muscle/evaluate.h"
-#include "core/skeleton/clinical_angles.h"
+#include "core/skeleton/posture_file.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -15,30 +14,6 @@ constexpr std::size_t kLimitingMuscles = 10;
 const std::vector<std::string> kQuantities = {"lengths",         "moment_arms",    "validity",
                                               "limiting_muscle", "passive_torque", "peak_torque",
                                               "fiber_lengths",   "passive_forces", "controllability"};
-
-struct NamedPosture {
-  std::string name;
-  Posture posture;
-};
-
-/// [{"name": "..", "coordinates_deg": {"hip_flexion_r": 30, ..}}]; what is not named is 0.
-std::vector<NamedPosture> loadPostures(const std::filesystem::path& file, const Skeleton& skeleton) {
-  const Json json = parseJson(readFile(file, std::uintmax_t{256} << 20), file.string());
-  std::vector<NamedPosture> postures;
-  for (const auto& item : JsonReader{json, file.string()}.items()) {
-    item.allowOnly({"name", "coordinates_deg"});
-    const std::string name_of_posture = item["name"].text();
-    std::map<std::string, double> coordinates_deg;
-    for (const auto& [name, value] : item["coordinates_deg"].members()) coordinates_deg[name] = value.number();
-    try {
-      postures.push_back({name_of_posture, postureFromDegrees(skeleton, coordinates_deg)});
-    } catch (const InputError& error) {
-      throw InputError{
-          {file.string(), item.path() + ".coordinates_deg", error.detail().expected, error.detail().found}};
-    }
-  }
-  return postures;
-}
 
 std::vector<std::string> chosenQuantities(const std::string& list) {
   std::vector<std::string> chosen = splitCsvLine(list);

@@ -3,8 +3,15 @@
 namespace sinew {
 
 void ViewState::setStage(Stage stage) {
-  if (stage == stage_) return;
+  if (stage == stage_ && !explorer_) return;
   stage_ = stage;
+  explorer_ = false;
+  emit stageChanged();
+}
+
+void ViewState::setExplorer(bool shown) {
+  if (shown == explorer_) return;
+  explorer_ = shown;
   emit stageChanged();
 }
 

@@ -27,20 +27,25 @@ class ViewState : public QObject {
   /// 0, 1: the patient's radiographs; 2, 3: the phantom's.
   const DisplayWindow& window(int slot) const { return windows_.at(std::size_t(slot)); }
 
+  /// Whether the model explorer is looked at instead of a stage or the first page.
+  bool explorer() const { return explorer_; }
+
   void setStage(Stage stage);
+  void setExplorer(bool shown);
   void setLandmark(const std::string& name);
   void setMuscle(const std::string& name);
   void setWindow(int slot, const DisplayWindow& window);
   void reset();  ///< for another case
 
  signals:
-  void stageChanged();
+  void stageChanged();  ///< or the explorer instead
   void landmarkChanged();
   void muscleChanged();
   void windowChanged(int slot);
 
  private:
   Stage stage_ = Stage::Images;
+  bool explorer_ = false;
   std::string landmark_, muscle_;
   std::array<DisplayWindow, 4> windows_;
 };

@@ -4,7 +4,6 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
-#include "app/scene/palette.h"
 #include "app/scene/vtk_convert.h"
 
 namespace sinew {
@@ -39,6 +38,7 @@ void BoneLayer::setBones(const std::vector<BoneMesh>& bones) {
   }
   setVisible(visible_);
   setOpacity(opacity_);
+  select(selected_);
 }
 
 void BoneLayer::setPoses(const std::vector<RigidTransform>& X_WB) {
@@ -59,7 +59,13 @@ void BoneLayer::setOpacity(double opacity) {
 }
 
 void BoneLayer::select(const std::string& name) {
-  for (auto& bone : bones_) paint(*bone.actor, bone.name == name ? palette::kYellow : palette::kBone);
+  selected_ = name;
+  for (auto& bone : bones_) paint(*bone.actor, bone.name == selected_ ? palette::kYellow : colour_);
+}
+
+void BoneLayer::setColour(const Rgb& colour) {
+  colour_ = colour;
+  select(selected_);
 }
 
 std::string BoneLayer::nameOf(const vtkProp* actor) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/palette.h"
 #include "core/model/model.h"
 
 class vtkRenderer;
@@ -21,6 +22,7 @@ class BoneLayer {
   void setVisible(bool visible);
   void setOpacity(double opacity);
   void select(const std::string& bone);
+  void setColour(const Rgb& colour);
   /// Name of the bone that an actor draws; empty if it is none of them.
   std::string nameOf(const vtkProp* actor) const;
 
@@ -34,6 +36,8 @@ class BoneLayer {
   std::vector<Bone> bones_;
   bool visible_ = true;
   double opacity_ = 1;
+  Rgb colour_ = palette::kBone;
+  std::string selected_;
 };
 
 }  // namespace sinew

@@ -14,6 +14,8 @@
 #include "app/scene/bone_layer.h"
 #include "app/scene/marker_layers.h"
 #include "app/scene/muscle_layer.h"
+#include "app/scene/rom_layer.h"
+#include "app/scene/rom_sphere.h"
 
 namespace sinew {
 namespace {
@@ -35,6 +37,15 @@ Eigen::Vector3d viewpoint(StandardView view) {
   return Eigen::Vector3d::UnitX();
 }
 
+/// Right, up, and towards the viewer.
+Eigen::Matrix3d viewAxes(StandardView view) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = viewpoint(view);
+  axes.col(0) = Eigen::Vector3d::UnitY().cross(axes.col(2)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
 void lightLikeAStudio(vtkRenderer& renderer) {
   vtkNew<vtkLightKit> lights;  // they stand with the camera: every view is lit alike
   lights->SetKeyLightIntensity(0.92);
@@ -49,17 +60,46 @@ void lightLikeAStudio(vtkRenderer& renderer) {
 
 }  // namespace
 
+namespace {
+
+/// Most of the length of the bone, so that the patch shows where its end can go; to the next joint, or a hand's
+/// length.
+double romRadius_m(const Skeleton& skeleton, const std::string& joint_name) {
+  constexpr double kShare = 0.55, kLeast_m = 0.07, kMost_m = 0.24;
+  const Joint& joint = skeleton.joints[std::size_t(skeleton.jointIndex(joint_name))];
+  double length_m = 0;
+  for (const auto& next : skeleton.joints)
+    if (next.parent == joint.child) length_m = std::max(length_m, next.X_PJ.translation().norm());
+  return std::clamp(kShare * length_m, kLeast_m, kMost_m);
+}
+
+}  // namespace
+
 struct ModelScene::Parts {
-  explicit Parts(vtkRenderer& r) : renderer{r}, bones{r}, muscles{r}, axes{r}, landmarks{r} {}
+  explicit Parts(vtkRenderer& r) : renderer{r}, bones{r}, muscles{r}, axes{r}, landmarks{r}, rom_layer{r} {}
 
   void requireModel() const { require(model != nullptr, "the scene has no model yet"); }
 
   void drawMuscles() {
-    if (model) muscles.draw(model->musculature, shown, X_WB, [this](int unit) { return colourOf(unit); });
+    if (!model) return;
+    muscles.draw(model->musculature, shown, X_WB, [this](int unit) { return colourOf(unit); });
+    outlineSelected();
+  }
+  void outlineSelected() {
+    const auto unit = std::ranges::find(model->musculature.units, selected, &MusculotendonUnit::name);
+    muscles.outline(unit == model->musculature.units.end() ? nullptr : &*unit, X_WB);
+  }
+  /// The sphere stands about the joint and turns with the parent.
+  void placeRom() {
+    rom_layer.setVisible(rom && rom_visible);
+    if (!rom) return;
+    const Joint& joint = model->skeleton.joints[std::size_t(model->skeleton.jointIndex(rom->joint))];
+    const RigidTransform X_WP = joint.parent < 0 ? RigidTransform::Identity() : X_WB[std::size_t(joint.parent)];
+    rom_layer.setPose(X_WP * joint.X_PJ, shaftDirection(*model, *rom, posture));
   }
   Rgb colourOf(int unit) const {
     const auto& u = model->musculature.units[unit];
-    if (!selected.empty() && u.name == selected) return palette::kYellow;
+    if (!scalars && !selected.empty() && u.name == selected) return palette::kYellow;
     if (!scalars) return groupColour(u.group);
     const auto value = scalars->by_unit.find(u.name);
     if (value == scalars->by_unit.end()) return palette::kGrey;
@@ -73,6 +113,10 @@ struct ModelScene::Parts {
   MuscleLayer muscles;
   AxesLayer axes;
   LandmarkLayer landmarks;
+  RomLayer rom_layer;
+  std::optional<RomMap> rom;
+  bool rom_visible = true;
+  Posture posture;
   std::shared_ptr<const Model> model;
   std::vector<RigidTransform> X_WB;
   std::vector<int> shown;  ///< units
@@ -92,6 +136,7 @@ void ModelScene::setModel(std::shared_ptr<const Model> model) {
   parts_->model = std::move(model);
   parts_->bones.setBones(*parts_->model->bones);
   parts_->X_WB.clear();
+  setRom(std::nullopt);
   setShownMuscles(std::nullopt);
   setPosture(zeroPosture(parts_->model->skeleton));
 }
@@ -101,10 +146,20 @@ void ModelScene::setPosture(const Posture& q) {
   const auto& skeleton = parts_->model->skeleton;
   require(q.size() == skeleton.coordinateCount(), "setPosture: another number of coordinates");
   parts_->X_WB = segmentPoses(skeleton, q);
+  parts_->posture = q;
   parts_->bones.setPoses(parts_->X_WB);
   parts_->axes.draw(legAxes(skeleton, parts_->X_WB));
   parts_->landmarks.draw(skeleton, parts_->X_WB);
   parts_->drawMuscles();
+  parts_->placeRom();
+}
+
+void ModelScene::show(const Posture& q, const std::string& selected, const std::optional<MuscleScalars>& scalars) {
+  parts_->scalars = scalars;
+  if (selected != parts_->selected) parts_->bones.select(selected);
+  parts_->bones.setColour(scalars ? palette::kQuietBone : palette::kBone);
+  parts_->selected = selected;
+  setPosture(q);
 }
 
 void ModelScene::setVisible(SceneLayer layer, bool visible) {
@@ -117,6 +172,9 @@ void ModelScene::setVisible(SceneLayer layer, bool visible) {
       return parts_->axes.setVisible(visible);
     case SceneLayer::Landmarks:
       return parts_->landmarks.setVisible(visible);
+    case SceneLayer::RomSphere:
+      parts_->rom_visible = visible;
+      return parts_->rom_layer.setVisible(visible && parts_->rom);
   }
 }
 
@@ -159,6 +217,15 @@ void ModelScene::colourMusclesBy(const MuscleScalars& scalars) {
   parts_->drawMuscles();
 }
 
+void ModelScene::setRom(const std::optional<RomMap>& map, double widest_rad) {
+  parts_->rom = map;
+  if (map) {
+    parts_->requireModel();
+    parts_->rom_layer.draw(*map, romRadius_m(parts_->model->skeleton, map->joint), widest_rad);
+  }
+  parts_->placeRom();
+}
+
 void ModelScene::select(const std::string& name) {
   parts_->selected = name;
   parts_->bones.select(name);
@@ -193,21 +260,25 @@ void ModelScene::lookFrom(StandardView view) {
   r.ComputeVisiblePropBounds(bounds);
   if (!vtkMath::AreBoundsInitialized(bounds)) return;
   const Eigen::Vector3d lo{bounds[0], bounds[2], bounds[4]}, hi{bounds[1], bounds[3], bounds[5]};
-  const Eigen::Vector3d centre = (lo + hi) / 2, out = viewpoint(view), up = Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d right = up.cross(out).normalized(), above = out.cross(right);
   const Eigen::Vector3d half = (hi - lo) / 2;
-  const double half_width = half.dot(right.cwiseAbs()), half_height = half.dot(above.cwiseAbs());
-
-  vtkCamera* camera = r.GetActiveCamera();
-  camera->ParallelProjectionOn();
-  camera->SetFocalPoint(centre.data());
-  const Eigen::Vector3d eye = centre + 4 * out;  // m: outside of every body
-  camera->SetPosition(eye.data());
-  camera->SetViewUp(above.data());
+  const Eigen::Matrix3d R_WC = viewAxes(view);
+  const double half_width = half.dot(R_WC.col(0).cwiseAbs()), half_height = half.dot(R_WC.col(1).cwiseAbs());
   constexpr double kMargin = 1.03;
   const int* size = r.GetVTKWindow() ? r.GetVTKWindow()->GetSize() : nullptr;
   const double aspect = size && size[0] > 0 && size[1] > 0 ? double(size[0]) / size[1] : 1.0;
-  camera->SetParallelScale(kMargin * std::max(half_height, half_width / aspect));
+  lookAt(view, (lo + hi) / 2, kMargin * std::max(half_height, half_width / aspect));
+}
+
+void ModelScene::lookAt(StandardView view, const Eigen::Vector3d& p_W, double half_height_m) {
+  vtkRenderer& r = parts_->renderer;
+  const Eigen::Matrix3d R_WC = viewAxes(view);
+  const Eigen::Vector3d eye = p_W + 4 * R_WC.col(2), above = R_WC.col(1);  // m: outside of every body
+  vtkCamera* camera = r.GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(p_W.data());
+  camera->SetPosition(eye.data());
+  camera->SetViewUp(above.data());
+  camera->SetParallelScale(half_height_m);
   r.ResetCameraClippingRange();
 }
 
@@ -221,7 +292,11 @@ RgbImage renderModel(const Model& model, const Posture& posture, const ModelPict
     scene.setVisible(SceneLayer::Muscles, picture.muscles);
     scene.setVisible(SceneLayer::MechanicalAxes, picture.mechanical_axes);
     scene.setVisible(SceneLayer::Landmarks, picture.landmarks);
-    scene.lookFrom(picture.view);
+    if (picture.rom) scene.setRom(picture.rom, picture.rom_widest_rad);
+    if (picture.focus)
+      scene.lookAt(picture.view, picture.focus->p_W, picture.focus->half_height_m);
+    else
+      scene.lookFrom(picture.view);
   };
   return renderOffscreen(picture.width_px, picture.height_px, compose, picture.quality);
 }

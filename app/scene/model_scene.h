@@ -8,12 +8,13 @@
 
 #include "app/scene/offscreen.h"
 #include "core/model/model.h"
+#include "core/rom/rom_map.h"
 
 class vtkRenderer;
 
 namespace sinew {
 
-enum class SceneLayer { Bones, Muscles, MechanicalAxes, Landmarks };
+enum class SceneLayer { Bones, Muscles, MechanicalAxes, Landmarks, RomSphere };
 enum class StandardView { Front, Back, Right, Left, Oblique };
 enum class Backdrop { White, Dark };
 
@@ -46,6 +47,10 @@ class ModelScene {
   /// Moves everything. @throws std::logic_error without a model or with a posture of another size.
   void setPosture(const Posture& q);
 
+  /// Posture, highlighted unit and colours (nullopt: by group) at once: for what follows a hand. Bones are grey while
+  /// colours stand for numbers, since ivory is near the middle of one colour map.
+  void show(const Posture& q, const std::string& selected, const std::optional<MuscleScalars>& scalars);
+
   void setVisible(SceneLayer layer, bool visible);
   void setBackdrop(Backdrop backdrop);
   void setBoneOpacity(double opacity);
@@ -55,6 +60,10 @@ class ModelScene {
   void colourMusclesByGroup();
   void colourMusclesBy(const MuscleScalars& scalars);
 
+  /// Shows where a ball joint lets its bone point, about the joint; nullopt shows nothing. `widest_rad`: the twist
+  /// range that gets the darkest colour.
+  void setRom(const std::optional<RomMap>& map, double widest_rad = 0);
+
   /// Highlights one bone or unit; an empty or unknown name highlights nothing.
   void select(const std::string& name);
   /// The nearest visible thing under a point of the render window [px], origin at the bottom left.
@@ -62,10 +71,18 @@ class ModelScene {
 
   /// Parallel projection (lengths compare across the picture) that shows all visible layers, with a small margin.
   void lookFrom(StandardView view);
+  /// The same from near by: `half_height_m` above and below of `p_W`.
+  void lookAt(StandardView view, const Eigen::Vector3d& p_W, double half_height_m);
 
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+};
+
+/// What a close-up shows.
+struct PictureFocus {
+  Eigen::Vector3d p_W;
+  double half_height_m = 0.2;
 };
 
 /// A still picture of a model.
@@ -76,6 +93,9 @@ struct ModelPicture {
   bool muscles = true, mechanical_axes = true, landmarks = false;
   std::optional<MuscleScalars> scalars;  ///< colours by group if absent
   OffscreenOptions quality;
+  std::optional<PictureFocus> focus;  ///< the whole body if absent
+  std::optional<RomMap> rom;          ///< shown about its joint
+  double rom_widest_rad = 0;          ///< the twist range that gets the darkest colour
 };
 
 /// Draws it without a display. @throws InputError if the machine cannot (see renderOffscreen()).

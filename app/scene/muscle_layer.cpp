@@ -35,6 +35,61 @@ MuscleLayer::MuscleLayer(vtkRenderer& renderer) {
   actor_->GetProperty()->SetSpecular(0.18);
   actor_->GetProperty()->SetSpecularPower(22);
   renderer.AddActor(actor_);
+
+  outline_tube_->SetInputData(outline_line_);
+  outline_tube_->SetNumberOfSides(14);
+  outline_tube_->CappingOn();
+  outline_tube_->SetVaryRadiusToVaryRadiusByAbsoluteScalar();
+  vtkNew<vtkPolyDataMapper> outline_mapper;
+  outline_mapper->SetInputConnection(outline_tube_->GetOutputPort());
+  outline_mapper->ScalarVisibilityOff();
+  outline_->SetMapper(outline_mapper);
+  outline_->PickableOff();
+  outline_->GetProperty()->FrontfaceCullingOn();  // only the far side of a wider tube shows: an edge
+  outline_->GetProperty()->LightingOff();
+  outline_->GetProperty()->SetColor(palette::kSelection.r, palette::kSelection.g, palette::kSelection.b);
+  renderer.AddActor(outline_);
+
+  thread_tube_->SetInputData(outline_line_);
+  thread_tube_->SetNumberOfSides(6);
+  thread_tube_->SetRadius(0.0024);
+  vtkNew<vtkPolyDataMapper> thread_mapper;
+  thread_mapper->SetInputConnection(thread_tube_->GetOutputPort());
+  thread_mapper->ScalarVisibilityOff();
+  thread_mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  thread_mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0, -66000);  // in front of every bone
+  thread_->SetMapper(thread_mapper);
+  thread_->PickableOff();
+  thread_->GetProperty()->LightingOff();
+  thread_->GetProperty()->SetColor(palette::kSelection.r, palette::kSelection.g, palette::kSelection.b);
+  renderer.AddActor(thread_);
+}
+
+void MuscleLayer::outline(const MusculotendonUnit* unit, const std::vector<RigidTransform>& X_WB) {
+  constexpr double kEdge_m = 0.0028;
+  outline_line_->Initialize();
+  if (unit) {
+    const auto spindle = muscleSpindle(*unit, pathPoints(*unit, X_WB));
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> cells;
+    vtkNew<vtkDoubleArray> radius;
+    cells->InsertNextCell(int(spindle.points.size()));
+    for (std::size_t k = 0; k < spindle.points.size(); ++k) {
+      cells->InsertCellPoint(points->InsertNextPoint(spindle.points[k].data()));
+      radius->InsertNextValue(spindle.radius_m[k] + kEdge_m);
+    }
+    outline_line_->SetPoints(points);
+    outline_line_->SetLines(cells);
+    outline_line_->SetLines(cells);
+    outline_line_->GetPointData()->SetScalars(radius);
+  }
+  outline_line_->Modified();
+}
+
+void MuscleLayer::setVisible(bool visible) {
+  actor_->SetVisibility(visible);
+  outline_->SetVisibility(visible);
+  thread_->SetVisibility(visible);
 }
 
 void MuscleLayer::draw(const Musculature& musculature, const std::vector<int>& shown,

@@ -23,7 +23,9 @@ class MuscleLayer {
   /// Draws `shown` units of `musculature` (indices) at the poses, coloured by `colour_of(unit index)`.
   void draw(const Musculature& musculature, const std::vector<int>& shown, const std::vector<RigidTransform>& X_WB,
             const std::function<Rgb(int)>& colour_of);
-  void setVisible(bool visible) { actor_->SetVisibility(visible); }
+  /// Draws a bright edge around one unit, and a thin line that shows through the body; nullptr: around none.
+  void outline(const MusculotendonUnit* unit, const std::vector<RigidTransform>& X_WB);
+  void setVisible(bool visible);
   bool draws(const vtkProp* actor) const { return actor == actor_.Get(); }
   /// Unit index of a cell of the drawn surface.
   int unitOfCell(vtkIdType cell) const;
@@ -32,6 +34,10 @@ class MuscleLayer {
   vtkNew<vtkPolyData> lines_;
   vtkNew<vtkTubeFilter> tubes_;
   vtkNew<vtkActor> actor_;
+  vtkNew<vtkPolyData> outline_line_;
+  vtkNew<vtkTubeFilter> outline_tube_;
+  vtkNew<vtkTubeFilter> thread_tube_;
+  vtkNew<vtkActor> outline_, thread_;
 };
 
 }  // namespace sinew

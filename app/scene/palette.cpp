@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 namespace sinew {
-namespace {
 
-Rgb interpolate(std::span<const Rgb> stops, double t) {
+Rgb interpolatedColour(std::span<const Rgb> stops, double t) {
   const double x = std::clamp(std::isfinite(t) ? t : 0.0, 0.0, 1.0) * double(stops.size() - 1);
   const auto i = std::min(std::size_t(x), stops.size() - 2);
   const double s = x - double(i);
@@ -17,18 +15,16 @@ Rgb interpolate(std::span<const Rgb> stops, double t) {
   return {a.r + s * (b.r - a.r), a.g + s * (b.g - a.g), a.b + s * (b.b - a.b)};
 }
 
-}  // namespace
-
 Rgb sequentialColour(double t) {
-  static constexpr std::array kStops = {Rgb{0.12, 0.10, 0.36}, Rgb{0.15, 0.32, 0.52}, Rgb{0.16, 0.52, 0.51},
+  static constexpr std::array kStops = {Rgb{0.26, 0.22, 0.60}, Rgb{0.16, 0.40, 0.60}, Rgb{0.16, 0.55, 0.55},
                                         Rgb{0.45, 0.71, 0.36}, Rgb{0.96, 0.89, 0.30}};
-  return interpolate(kStops, t);
+  return interpolatedColour(kStops, t);
 }
 
 Rgb divergingColour(double t) {
   static constexpr std::array kStops = {Rgb{0.02, 0.28, 0.58}, Rgb{0.45, 0.67, 0.85}, Rgb{0.94, 0.94, 0.92},
                                         Rgb{0.93, 0.63, 0.32}, Rgb{0.62, 0.26, 0.02}};
-  return interpolate(kStops, t);
+  return interpolatedColour(kStops, t);
 }
 
 Rgb groupColour(std::string_view group) {

@@ -59,12 +59,13 @@ CurvePlot::Range CurvePlot::rangeX() const {
 }
 
 CurvePlot::Range CurvePlot::rangeY() const {
-  Range range{0, -INFINITY};
+  Range range = from_zero_ ? Range{0, 0} : Range{INFINITY, -INFINITY};
   for (const auto& curve : curves_)
     for (const auto& [x, y] : curve.points)
       if (std::isfinite(y)) range = {std::min(range.low, y), std::max(range.high, y)};
   for (const auto& mark : marks_)
-    if (mark.horizontal) range.high = std::max(range.high, mark.value * 1.15);
+    if (mark.horizontal)  // with room for its name above
+      range.high = std::max(range.high, from_zero_ ? mark.value * 1.15 : mark.value + 0.3 * (mark.value - range.low));
   if (highest_ > 0) range = {std::max(range.low, -highest_ / 4), std::min(range.high, highest_)};
   if (!(range.low < range.high)) range = {0, 1};
   return range;
@@ -112,6 +113,7 @@ void CurvePlot::paintEvent(QPaintEvent*) {
 
   double legend_x = area.right();
   const auto legend = [&](const QString& name, const QPen& pen) {
+    if (name.isEmpty()) return;
     const double width = painter.fontMetrics().horizontalAdvance(name);
     legend_x -= width;
     painter.setPen(colour::kText);
@@ -139,7 +141,11 @@ void CurvePlot::paintEvent(QPaintEvent*) {
   for (const auto& mark : marks_) {
     painter.setPen(mark.color);
     if (mark.horizontal) {
-      painter.drawText(QPointF{area.left() + 4, toY(mark.value) - 4}, mark.name);
+      // At the left, unless a name of a vertical mark is there.
+      const bool taken = std::ranges::any_of(
+          marks_, [&](const PlotMark& m) { return !m.horizontal && toX(m.value) < area.left() + area.width() / 3; });
+      painter.drawText(QRectF{area.left() + 4, toY(mark.value) - 17, area.width() - 8, 14},
+                       (taken ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignBottom, mark.name);
     } else {
       const bool near_right = toX(mark.value) > area.center().x();
       const QRectF box{near_right ? toX(mark.value) - 124 : toX(mark.value) + 4, area.top() + 2, 120, 16};

@@ -33,6 +33,8 @@ class CurvePlot : public QWidget {
   void setCurves(std::vector<PlotCurve> curves, std::vector<PlotMark> marks, const QString& placeholder);
   /// y beyond this is cut off; 0 = no limit.
   void setHighest(double y) { highest_ = y; }
+  /// Whether y always shows zero; a length says more without.
+  void setFromZero(bool from_zero) { from_zero_ = from_zero; }
 
   QSize sizeHint() const override { return {360, 260}; }
   QSize minimumSizeHint() const override { return {240, 180}; }
@@ -49,6 +51,7 @@ class CurvePlot : public QWidget {
 
   QString x_title_, y_title_, placeholder_, band_name_;
   double band_low_ = 0, band_high_ = 0, highest_ = 0;
+  bool from_zero_ = true;
   std::vector<PlotCurve> curves_;
   std::vector<PlotMark> marks_;
 };

@@ -14,6 +14,7 @@
 #include "app/widgets/calibration_page.h"
 #include "app/widgets/controls.h"
 #include "app/widgets/exam_page.h"
+#include "app/widgets/explorer/explorer_page.h"
 #include "app/widgets/images_page.h"
 #include "app/widgets/landmarks_page.h"
 #include "app/widgets/musculature_page.h"
@@ -49,6 +50,9 @@ MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_re
                   {Stage::Report, new ReportStagePage{workspace_, std::move(render_report)}}};
   for (const auto& [stage, page] : stage_pages_) pages_->addWidget(page);
 
+  explorer_ = new ExplorerPage{workspace_};
+  pages_->addWidget(explorer_);
+
   banner_ = new Banner;
   auto* banner_line = new QHBoxLayout;
   banner_line->setContentsMargins(20, 0, 20, 0);
@@ -80,6 +84,8 @@ MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_re
   connect(welcome, &WelcomePage::openWanted, this, &MainWindow::openCase);
   connect(welcome, &WelcomePage::newWanted, this, &MainWindow::newCase);
   connect(welcome, &WelcomePage::demoWanted, this, &MainWindow::openDemo);
+  connect(welcome, &WelcomePage::explorerWanted, this, [this] { workspace_.view().setExplorer(true); });
+  connect(explorer_, &ExplorerPage::closeWanted, this, [this] { workspace_.view().setExplorer(false); });
   refreshActions();
   showStage();
 }
@@ -112,6 +118,7 @@ HeaderBar::Actions MainWindow::makeActions() {
       run->click();
   });
   shortcut("Ctrl+Shift+R", [this] { findChild<QPushButton*>("run_all")->click(); });
+  shortcut("Ctrl+M", [this] { workspace_.view().setExplorer(true); });
   shortcut("Esc", [this] { workspace_.jobs().cancel(); });
   for (int i = 0; i < int(kStages.size()); ++i)
     shortcut(QString{"Alt+%1"}.arg(i + 1).toLatin1().constData(), [this, i] {
@@ -133,7 +140,9 @@ void MainWindow::refreshActions() {
 }
 
 void MainWindow::showStage() {
-  QWidget* page = workspace_.document().isOpen() ? stage_pages_.at(workspace_.view().stage()) : welcome_;
+  QWidget* page = welcome_;
+  if (workspace_.document().isOpen()) page = stage_pages_.at(workspace_.view().stage());
+  if (workspace_.view().explorer()) page = explorer_;
   pages_->setCurrentWidget(page);
 }
 

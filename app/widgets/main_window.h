@@ -10,6 +10,7 @@ class QStackedWidget;
 namespace sinew {
 
 class Banner;
+class ExplorerPage;
 class StagePage;
 class Workspace;
 
@@ -38,6 +39,7 @@ class MainWindow : public QWidget {
   Banner* banner_;
   QStackedWidget* pages_;
   QWidget* welcome_;
+  ExplorerPage* explorer_;
   std::map<Stage, StagePage*> stage_pages_;
 };
 

@@ -7,7 +7,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "app/scene/model_scene.h"
 #include "app/widgets/theme.h"
 #include "app/widgets/vtk_view.h"
 
@@ -17,12 +16,12 @@ namespace {
 constexpr StandardView kViews[] = {StandardView::Front, StandardView::Right, StandardView::Back,
                                    StandardView::Oblique};
 
+}  // namespace
+
 bool platformHasOpenGl() {
   const QString platform = QGuiApplication::platformName();
   return platform != "offscreen" && platform != "minimal" && platform != "vnc" && platform != "linuxfb";
 }
-
-}  // namespace
 
 ModelView::ModelView(const QString& object_name, bool with_muscles, QWidget* parent)
     : QWidget{parent}, with_muscles_{with_muscles}, muscles_{with_muscles} {
@@ -89,10 +88,11 @@ void ModelView::buildTools(QHBoxLayout& tools, const QString& object_name) {
       redraw();
     });
     tools.addWidget(button);
+    return button;
   };
   layer("bones", tr("Bones"), tr("Show bones"), bones_, SceneLayer::Bones);
   if (with_muscles_) layer("muscles", tr("Muscles"), tr("Show muscles"), muscles_, SceneLayer::Muscles);
-  layer("axes", tr("Axes"), tr("Show mechanical axes"), axes_, SceneLayer::MechanicalAxes);
+  axes_button_ = layer("axes", tr("Axes"), tr("Show mechanical axes"), axes_, SceneLayer::MechanicalAxes);
   layer("landmarks", tr("Points"), tr("Show landmarks"), landmarks_, SceneLayer::Landmarks);
   tools.addSpacing(8);
   const char* names[] = {"front", "side", "back", "oblique"};
@@ -134,6 +134,26 @@ void ModelView::select(const std::string& name) {
   redraw();
 }
 
+void ModelView::showRom(const std::optional<RomMap>& map, double widest_rad) {
+  if (!scene_ || !model_) return;
+  scene_->setRom(map, widest_rad);
+  redraw();
+}
+
+void ModelView::show(const Posture& posture, const std::string& selected,
+                     const std::optional<MuscleScalars>& scalars) {
+  if (!model_) return;
+  posture_ = posture;
+  scalars_ = scalars;
+  if (scene_) scene_->show(posture, selected, scalars);
+  redraw();
+}
+
+void ModelView::withoutAxes() {
+  axes_button_->setChecked(false);
+  axes_button_->hide();
+}
+
 void ModelView::lookFrom(int standard_view) {
   standard_view_ = standard_view;
   if (scene_ && model_) scene_->lookFrom(kViews[standard_view]);
@@ -152,8 +172,10 @@ void ModelView::redraw() {
                         muscles_,
                         axes_,
                         landmarks_,
+                        scalars_,
+                        {1, false},
                         {},
-                        {1, false}};
+                        {}};
     const RgbImage image = renderModel(*model_, posture_, wanted);
     still_->setPixmap(QPixmap::fromImage(
         QImage{image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px, QImage::Format_RGB888}));

@@ -5,15 +5,19 @@
 #include <optional>
 #include <string>
 
+#include "app/scene/model_scene.h"
 #include "core/model/model.h"
 
 class QHBoxLayout;
 class QStackedLayout;
+class QToolButton;
 
 namespace sinew {
 
-class ModelScene;
 class VtkView;
+
+/// Whether QOpenGLWidget works here; "offscreen" and its like have none.
+bool platformHasOpenGl();
 
 /// The 3-D model with its tools: standard views and layers. On a platform without OpenGL a still picture of the same
 /// scene, drawn without a display, takes its place.
@@ -26,6 +30,13 @@ class ModelView : public QWidget {
   /// nullptr: shows `placeholder` instead.
   void setModel(std::shared_ptr<const Model> model, const Posture& posture, const QString& placeholder);
   void select(const std::string& name);
+  /// Shows a ball joint's map about the joint; nullopt: none.
+  void showRom(const std::optional<RomMap>& map, double widest_rad = 0);
+  /// Posture, highlighted unit and colours (nullopt: by group) of the model that is shown, at once: quick enough to
+  /// follow a slider.
+  void show(const Posture& posture, const std::string& selected, const std::optional<MuscleScalars>& scalars);
+  /// Hides the mechanical axes and their button, for narrow places where they say nothing.
+  void withoutAxes();
   VtkView* vtkView() { return vtk_; }
 
  signals:
@@ -44,6 +55,8 @@ class ModelView : public QWidget {
   QStackedLayout* stack_;
   std::shared_ptr<const Model> model_;
   Posture posture_;
+  std::optional<MuscleScalars> scalars_;
+  QToolButton* axes_button_ = nullptr;
   int standard_view_ = 0;
   bool framed_ = false;
   bool bones_ = true, muscles_ = true, axes_ = true, landmarks_ = false;

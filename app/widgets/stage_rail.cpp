@@ -46,6 +46,9 @@ StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, w
     column->addWidget(entries_.at(stage).button);
   }
   column->addStretch();
+  explorer_ = makeExplorerEntry();
+  column->addWidget(explorer_);
+  column->addSpacing(6);
   run_all_ = new QPushButton{icon("play-all", Qt::white), tr("Run all")};
   run_all_->setObjectName("run_all");
   run_all_->setProperty("role", "primary");
@@ -59,6 +62,31 @@ StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, w
   connect(&workspace_.jobs(), &JobRunner::released, this, &StageRail::refresh);
   refresh();
   refreshSelection();
+}
+
+QPushButton* StageRail::makeExplorerEntry() {
+  auto* button = new QPushButton;
+  button->setObjectName("open_explorer");
+  button->setProperty("role", "stage");
+  button->setCheckable(true);
+  button->setFixedHeight(40);
+  button->setCursor(Qt::PointingHandCursor);
+  button->setAccessibleName(tr("Model explorer"));
+  button->setToolTip(tr("Bones, muscles, joints and their ranges; with or without a case (Ctrl+M)"));
+  auto* picture = new QLabel;
+  picture->setPixmap(icon("explorer", QColor{0xc9, 0xd6, 0xe0}).pixmap(22, 22));
+  auto* title = makeLabel(tr("Model explorer"), "heading");
+  auto* row = new QHBoxLayout{button};
+  row->setContentsMargins(12, 0, 10, 0);
+  row->setSpacing(9);
+  row->addWidget(picture);
+  row->addWidget(title, 1);
+  for (QLabel* child : {picture, title}) child->setAttribute(Qt::WA_TransparentForMouseEvents);
+  connect(button, &QPushButton::clicked, this, [this] {
+    workspace_.view().setExplorer(true);
+    refreshSelection();  // a second click must not uncheck it
+  });
+  return button;
 }
 
 StageRail::Entry StageRail::makeEntry(Stage stage) {
@@ -128,7 +156,9 @@ void StageRail::refresh() {
 
 void StageRail::refreshSelection() {
   for (auto& [stage, entry] : entries_)
-    entry.button->setChecked(workspace_.document().isOpen() && stage == workspace_.view().stage());
+    entry.button->setChecked(workspace_.document().isOpen() && !workspace_.view().explorer() &&
+                             stage == workspace_.view().stage());
+  explorer_->setChecked(workspace_.view().explorer());
 }
 
 }  // namespace sinew

@@ -23,12 +23,13 @@ class StageRail : public QWidget {
     QLabel *sign, *title, *line;
   };
   Entry makeEntry(Stage stage);
+  QPushButton* makeExplorerEntry();
   void refresh();
   void refreshSelection();
 
   Workspace& workspace_;
   std::map<Stage, Entry> entries_;
-  QPushButton* run_all_;
+  QPushButton *explorer_, *run_all_;
 };
 
 }  // namespace sinew

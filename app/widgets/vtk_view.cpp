@@ -1,6 +1,7 @@
 #include "app/widgets/vtk_view.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkGenericRenderWindowInteractor.h>
@@ -130,7 +131,33 @@ void VtkView::observeWindow() {
           [](vtkObject*, unsigned long, void* self, void*) { static_cast<VtkView*>(self)->requestRender(); });
 }
 
+void VtkView::observeCamera() {
+  if (camera_) camera_->RemoveObserver(camera_tag_);
+  camera_ = renderer_->GetActiveCamera();
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(this);
+  command->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*) { static_cast<VtkView*>(self)->cameraMoved(); });
+  camera_tag_ = camera_->AddObserver(vtkCommand::ModifiedEvent, command);
+}
+
+void VtkView::cameraMoved() {
+  // Drawing sets the clipping range, which must not ask for another drawing.
+  const double *p = camera_->GetPosition(), *up = camera_->GetViewUp();
+  const std::array<double, 7> from{p[0], p[1], p[2], up[0], up[1], up[2], camera_->GetParallelScale()};
+  if (from == seen_from_) return;
+  seen_from_ = from;
+  requestRender();
+}
+
+void VtkView::shareCameraWith(VtkView& other) {
+  renderer_->SetActiveCamera(other.renderer_->GetActiveCamera());
+  observeCamera();
+  other.observeCamera();
+}
+
 VtkView::~VtkView() {
+  if (camera_) camera_->RemoveObserver(camera_tag_);
   if (context()) {
     disconnect(context(), nullptr, this, nullptr);
     releaseContext();

@@ -3,7 +3,9 @@
 
 #include <QOpenGLWidget>
 #include <QSurfaceFormat>
+#include <array>
 
+class vtkCamera;
 class vtkGenericOpenGLRenderWindow;
 class vtkRenderer;
 class vtkRenderWindowInteractor;
@@ -23,6 +25,8 @@ class VtkView : public QOpenGLWidget {
 
   vtkRenderer& renderer();
   void requestRender();
+  /// Both views look from the same place from now on: turning one turns the other.
+  void shareCameraWith(VtkView& other);
   int renderCount() const { return render_count_; }
 
  signals:
@@ -37,6 +41,8 @@ class VtkView : public QOpenGLWidget {
 
  private:
   void observeWindow();
+  void observeCamera();
+  void cameraMoved();
   void releaseContext();
   void syncSize();
   bool forward(QEvent* event);
@@ -46,6 +52,9 @@ class VtkView : public QOpenGLWidget {
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkCamera> camera_;
+  unsigned long camera_tag_ = 0;
+  std::array<double, 7> seen_from_{};
   QPointF press_;
   bool dirty_ = true, painting_ = false;
   int render_count_ = 0, wheel_rest_ = 0;

@@ -34,14 +34,17 @@ WelcomePage::WelcomePage(Workspace& workspace, QWidget* parent) : QWidget{parent
                            tr("Begin with a frontal and a lateral radiograph."));
   auto* demo = makeChoice("welcome_demo", "demo", tr("Open demo patient"),
                           tr("A synthetic patient with known truth, made in a folder of your choice."));
+  auto* explore = makeChoice("welcome_explorer", "explorer", tr("Explore the model"),
+                             tr("The reference model: bones, muscles, joints and their ranges. Needs no case."));
   row->addStretch();
-  for (auto* choice : {open, fresh, demo}) row->addWidget(choice);
+  for (auto* choice : {open, fresh, demo, explore}) row->addWidget(choice);
   row->addStretch();
   column->addLayout(row);
   column->addStretch(4);
   connect(open, &QPushButton::clicked, this, &WelcomePage::openWanted);
   connect(fresh, &QPushButton::clicked, this, &WelcomePage::newWanted);
   connect(demo, &QPushButton::clicked, this, &WelcomePage::demoWanted);
+  connect(explore, &QPushButton::clicked, this, &WelcomePage::explorerWanted);
   const auto enable = [this, &workspace] { setEnabled(!workspace.jobs().isBusy()); };
   connect(&workspace.jobs(), &JobRunner::started, this, enable);
   connect(&workspace.jobs(), &JobRunner::released, this, enable);

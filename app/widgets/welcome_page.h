@@ -17,6 +17,7 @@ class WelcomePage : public QWidget {
   void openWanted();
   void newWanted();
   void demoWanted();
+  void explorerWanted();
 
  private:
   QPushButton* makeChoice(const QString& object_name, const QString& icon_name, const QString& title,

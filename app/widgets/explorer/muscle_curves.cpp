@@ -1,0 +1,155 @@
+#include "app/widgets/explorer/muscle_curves.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <numbers>
+
+#include "app/model/explorer/explorer.h"
+#include "app/model/explorer/muscle_text.h"
+#include "app/model/stage_text.h"
+#include "app/widgets/curve_plot.h"
+#include "app/widgets/theme.h"
+#include "core/muscle/hill.h"
+#include "core/muscle/muscle_role.h"
+#include "core/skeleton/motion_words.h"
+
+namespace sinew {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::vector<std::pair<double, double>> sampled(CurveValue (*curve)(double)) {
+  constexpr int kSamples = 90;
+  constexpr double kFrom = 0.3, kTo = 1.75;
+  std::vector<std::pair<double, double>> points;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double l = kFrom + (kTo - kFrom) * i / kSamples;
+    points.emplace_back(l, curve(l).value);
+  }
+  return points;
+}
+
+std::vector<std::pair<double, double>> overAngle(const MotionCurve& curve, const std::vector<double>& y,
+                                                 double scale) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < y.size(); ++i) points.emplace_back(curve.angle_deg[i], scale * y[i]);
+  return points;
+}
+
+CurvePlot* makePlot(const QString& object_name) {
+  auto* plot = new CurvePlot;
+  plot->setObjectName(object_name);
+  plot->setMinimumHeight(166);
+  return plot;
+}
+
+}  // namespace
+
+MuscleCurves::MuscleCurves(Explorer& explorer, QWidget* parent) : QWidget{parent}, explorer_{explorer} {
+  setObjectName("muscle_curves");
+  title_ = makeLabel({}, "heading");
+  title_->setWordWrap(true);
+  motion_ = new QComboBox;
+  motion_->setObjectName("curve_motion");
+  motion_->setAccessibleName(tr("Joint motion"));
+  motion_->setMaxVisibleItems(20);
+  motion_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  force_ = makePlot("force_length_plot");
+  length_ = makePlot("length_angle_plot");
+  arm_ = makePlot("moment_arm_plot");
+  force_->setAxes(tr("fibre length / optimal"), tr("force / maximal force"));
+  force_->setHighest(1.25);
+  length_->setFromZero(false);
+  auto* all = new QWidget;
+  auto* inner = new QVBoxLayout{all};
+  inner->setContentsMargins(0, 0, 8, 0);
+  inner->setSpacing(4);
+  inner->addWidget(force_);
+  inner->addWidget(motion_);
+  inner->addWidget(length_);
+  inner->addWidget(arm_);
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(all);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* column = new QVBoxLayout{this};
+  column->setContentsMargins(14, 12, 2, 6);
+  column->setSpacing(6);
+  column->addWidget(title_);
+  column->addWidget(scroll, 1);
+  connect(motion_, &QComboBox::currentIndexChanged, this, &MuscleCurves::showMotion);
+}
+
+void MuscleCurves::fillMotions() {
+  if (filled_for_ == explorer_.model().get() && motion_->count() > 0) return;
+  filled_for_ = explorer_.model().get();
+  curve_key_.clear();
+  const QSignalBlocker block{motion_};
+  motion_->clear();
+  motion_->addItem(tr("Motion that shortens it most"));
+  for (const auto& motion : explorer_.motions()) motion_->addItem(motionTitle(motion));
+}
+
+void MuscleCurves::refresh() {
+  const int unit = explorer_.muscleIndex();
+  if (explorer_.model()) fillMotions();
+  title_->setText(unit < 0 ? tr("No muscle chosen")
+                           : readableName(explorer_.model()->musculature.units[std::size_t(unit)].name));
+  const QString hint = tr("Click a muscle in the model, or find it in the list.");
+  if (unit < 0) {
+    for (auto* plot : {force_, length_, arm_}) plot->setCurves({}, {}, hint);
+    return;
+  }
+  showForceLength(unit);
+  showMotion();
+}
+
+void MuscleCurves::showForceLength(int unit) {
+  static const auto active = sampled(activeForceLength), passive = sampled(passiveForceLength);
+  const double ratio = explorer_.evaluation().normalized_fiber_length[unit];
+  force_->setCurves(
+      {{tr("active"), active, colour::kPrimary, false}, {tr("passive"), passive, colour::kDanger, true}},
+      {{tr("now %1").arg(figure(ratio, 2)), ratio, colour::kText, false}}, {});
+}
+
+void MuscleCurves::showMotion() {
+  const int unit = explorer_.muscleIndex();
+  if (unit < 0) return;
+  const Model& model = *explorer_.model();
+  const auto& u = model.musculature.units[std::size_t(unit)];
+  const JointMotion* motion = nullptr;
+  if (const int index = motion_->currentIndex() - 1; index >= 0) {
+    motion = &explorer_.motions()[std::size_t(index)];
+  } else if (const auto functions = muscleFunctions(model.skeleton, u, explorer_.motions()); !functions.empty()) {
+    motion = functions.front().motion;
+  }
+  if (!motion) {
+    const QString none = tr("No joint motion of the table shortens this muscle.");
+    length_->setCurves({}, {}, none);
+    arm_->setCurves({}, {}, none);
+    return;
+  }
+  if (const std::string key = u.name + ' ' + motion->name; key != curve_key_) {
+    constexpr int kSamples = 61;
+    curve_ = motionCurve(model.skeleton, u, *motion, kSamples);
+    curve_key_ = key;
+  }
+  const double now_deg = explorer_.clinical()[model.skeleton.coordinateIndex(motion->coordinate)] / kDegree;
+  const double low = std::min(motion->start_deg, motion->end_deg),
+               high = std::max(motion->start_deg, motion->end_deg);
+  std::vector<PlotMark> now;
+  if (now_deg >= low && now_deg <= high)
+    now.push_back({tr("now %1°").arg(figure(now_deg, 0)), now_deg, colour::kText, false});
+  const QString x_title = tr("%1, degrees").arg(QString::fromStdString(motionWords(motion->coordinate, true)));
+  auto limit = now;
+  limit.push_back({tr("longest"), 1000 * longestLength_m(u), colour::kDanger, true});
+  length_->setAxes(x_title, tr("length of the path, mm"));
+  length_->setCurves({{{}, overAngle(curve_, curve_.length_m, 1000), colour::kPrimary, false}}, limit, {});
+  arm_->setAxes(x_title, tr("moment arm, mm"));
+  arm_->setCurves({{{}, overAngle(curve_, curve_.moment_arm_m, 1000), colour::kPrimary, false}}, now, {});
+}
+
+}  // namespace sinew
