@@ -28,7 +28,7 @@
 namespace sinew {
 namespace {
 
-constexpr int kReference = 0, kPatient = 1, kFile = 2;
+constexpr int kReference = 0, kPatient = 1, kFile = 2, kAthlete = 3;
 constexpr int kFrame_ms = 15;  // a slider sends more changes than a screen can show
 
 QTabWidget* makeTabs(const QString& object_name) {
@@ -166,6 +166,7 @@ void ExplorerPage::fillModels() {
   const bool has_patient = workspace_.document().isOpen() && skeleton && skeleton->outcome == Outcome::Converged;
   models_->clear();
   models_->addItem(tr("Reference model"), kReference);
+  models_->addItem(tr("Reference model, athlete"), kAthlete);
   if (has_patient) models_->addItem(tr("The patient's model"), kPatient);
   models_->addItem(tr("Open a model file …"), kFile);
   const QString& shown = explorer_.title();
@@ -178,6 +179,10 @@ void ExplorerPage::chooseModel(int index) {
   if (!choice.isValid()) return;  // what is shown already
   if (choice == kReference) {
     loadInBackground(tr("Reference model"), [this] { return workspace_.reference(); });
+  } else if (choice == kAthlete) {
+    loadInBackground(tr("Reference model, athlete"), [this] {
+      return std::make_shared<const Model>(loadReferenceModel(workspace_.resourceDir(), "athlete"));
+    });
   } else if (choice == kPatient) {
     try {
       if (auto model = workspace_.patientModel()) {
