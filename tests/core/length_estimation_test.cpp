@@ -42,8 +42,8 @@ TEST(LongestPaths, AreTheExtremesOverAllBlocks) {
   for (const double deg : {60.0, 0.0, 120.0})
     postures.push_back(postureFromDegrees(skeleton(), {{"knee_flexion_r", deg}}));
   const PathLimits limits = limitsOver(muscles, postures);
-  EXPECT_DOUBLE_EQ(limits.longest_m[0], pathLength(muscles.units[0], segmentPoses(skeleton(), postures[1])));
-  EXPECT_DOUBLE_EQ(limits.shortest_m[0], pathLength(muscles.units[0], segmentPoses(skeleton(), postures[2])));
+  EXPECT_NEAR(limits.longest_m[0], pathLength(muscles.units[0], segmentPoses(skeleton(), postures[1])), 1e-12);
+  EXPECT_NEAR(limits.shortest_m[0], pathLength(muscles.units[0], segmentPoses(skeleton(), postures[2])), 1e-12);
 }
 
 TEST(LengthEstimation, LongestLengthIsTheLongestPath) {
@@ -55,7 +55,7 @@ TEST(LengthEstimation, LongestLengthIsTheLongestPath) {
   const auto estimate =
       estimateLengths(skeleton(), muscles, limitsOver(muscles, bent), resting, {.smallest_ratio = 1}).front();
   const double longest = pathLength(muscles.units[0], segmentPoses(skeleton(), bent[1]));
-  EXPECT_DOUBLE_EQ(estimate.longest_path_m, longest);
+  EXPECT_NEAR(estimate.longest_path_m, longest, 1e-12);
   EXPECT_FALSE(estimate.relaxed);
   EXPECT_NEAR(1.6 * estimate.optimal_fiber_length_m + 1.03 * estimate.tendon_slack_length_m, longest, 1e-12);
   EXPECT_NEAR(estimate.tendon_slack_length_m / estimate.optimal_fiber_length_m, 0.5, 1e-12);

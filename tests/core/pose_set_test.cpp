@@ -149,9 +149,9 @@ TEST_P(SampledPoses, StayInsideRangesAndCouplingsOnBothSides) {
 
 TEST_P(SampledPoses, RepeatAndMoveBothSidesIndependently) {
   const RomPreset preset = loadRomPreset(test::resourceDir(), GetParam(), skeleton());
-  const PoseSet a = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 600}),
-                b = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 600}),
-                other = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 600, .seed = 1});
+  const PoseSet a = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 3000}),
+                b = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 3000}),
+                other = sampledPoseSet(skeleton(), preset, norms().tests, {.count = 3000, .seed = 1});
   ASSERT_EQ(a.size(), b.size());
   const int right = skeleton().coordinateIndex("knee_flexion_r"), left = skeleton().coordinateIndex("knee_flexion_l");
   const PoseMirror mirror{skeleton()};
@@ -173,7 +173,7 @@ TEST_P(SampledPoses, RepeatAndMoveBothSidesIndependently) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, SampledPoses, testing::ValuesIn(romPresetNames()),
-                         [](const auto& info) { return info.param == "athlete" ? "Athlete" : "AverageAdult"; });
+                         [](const auto& tested) { return tested.param == "athlete" ? "Athlete" : "AverageAdult"; });
 
 }  // namespace
 }  // namespace sinew

@@ -69,8 +69,8 @@ TEST(RomMap, WithoutMusclesItIsTheEnvelope) {
         const Eigen::VectorXd clinical = clinicalFromPosture(bare.skeleton, q);
         bool inside = true;
         for (int i = hip.first_coordinate; i < hip.first_coordinate + 3; ++i)
-          inside = inside && clinical[i] >= bare.skeleton.coordinates[i].athlete_min_rad &&
-                   clinical[i] <= bare.skeleton.coordinates[i].athlete_max_rad;
+          inside = inside && clinical[i] >= bare.skeleton.coordinates[i].stop_min_rad &&
+                   clinical[i] <= bare.skeleton.coordinates[i].stop_max_rad;
         EXPECT_EQ(map.valid[RomMap::cell(t, p, a)], inside) << t << " " << p << " " << a;
       }
   EXPECT_GT(map.validCount(), 0);

@@ -138,7 +138,7 @@ TEST_P(Preset, CouplingsAreThoseOfPeople) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Preset, testing::ValuesIn(romPresetNames()),
-                         [](const auto& info) { return info.param == "athlete" ? "Athlete" : "AverageAdult"; });
+                         [](const auto& tested) { return tested.param == "athlete" ? "Athlete" : "AverageAdult"; });
 
 TEST(AverageAdult, ReadsThePoplitealAngleOfThePaper) {
   EXPECT_NEAR(shipped("average-adult").reading_deg("popliteal_adult"), 30, 2);  // Ryu et al.: 30 deg at 50 N m
