@@ -68,12 +68,11 @@ class Sweep {
 
 /// Values to try, rising, the present one among them.
 std::vector<double> samples(const Coordinate& c, double present_rad) {
-  const double width_rad = c.athlete_max_rad - c.athlete_min_rad;
+  const double width_rad = c.stop_max_rad - c.stop_min_rad;
   const int steps = std::max(1, int(std::ceil(width_rad / kSample_rad)));
   std::vector<double> values;
-  for (int i = 0; i <= steps; ++i)
-    values.push_back(std::lerp(c.athlete_min_rad, c.athlete_max_rad, double(i) / steps));
-  if (present_rad > c.athlete_min_rad && present_rad < c.athlete_max_rad) {
+  for (int i = 0; i <= steps; ++i) values.push_back(std::lerp(c.stop_min_rad, c.stop_max_rad, double(i) / steps));
+  if (present_rad > c.stop_min_rad && present_rad < c.stop_max_rad) {
     values.push_back(present_rad);
     std::ranges::sort(values);
   }

@@ -18,8 +18,8 @@ struct CoordinateRange {
   bool isEmpty() const { return !(low_rad <= high_rad); }
 };
 
-/// The free interval that holds the present value, or the one nearest to it. Sampled every 3 degrees over the athlete
-/// envelope, ends found by bisection to 0.01 degrees; a gap narrower than the samples can be missed.
+/// The free interval that holds the present value, or the one nearest to it. Sampled every 3 degrees over the
+/// envelope of this body, ends found by bisection to 0.01 degrees; a gap narrower than the samples can be missed.
 /// @param clinical the posture as clinicalFromPosture() gives it; `coordinate` is an angle, not a translation.
 CoordinateRange muscleInducedRange(const Model& model, const Eigen::VectorXd& clinical, int coordinate);
 

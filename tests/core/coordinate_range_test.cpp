@@ -41,7 +41,7 @@ TEST(CoordinateRange, EndsWhereTheMuscleReachesItsLongestLength) {
   const CoordinateRange range = muscleInducedRange(model, bent, knee);
   EXPECT_NEAR(range.low_rad, 35 * kDegree, kBisection_rad);
   EXPECT_EQ(range.low_unit, model.musculature.unitIndex("back_of_knee_r"));
-  EXPECT_EQ(range.high_rad, model.skeleton.coordinates[std::size_t(knee)].athlete_max_rad);
+  EXPECT_EQ(range.high_rad, model.skeleton.coordinates[std::size_t(knee)].stop_max_rad);
   EXPECT_EQ(range.high_unit, -1);  // the joint's own end
 }
 
@@ -69,8 +69,8 @@ TEST(CoordinateRange, OtherJointsAreTheirEnvelope) {
   for (const auto& range : ranges) {
     const Coordinate& c = model.skeleton.coordinates[std::size_t(range.coordinate)];
     if (c.name == "knee_flexion_r") continue;
-    EXPECT_EQ(range.low_rad, c.athlete_min_rad) << c.name;
-    EXPECT_EQ(range.high_rad, c.athlete_max_rad) << c.name;
+    EXPECT_EQ(range.low_rad, c.stop_min_rad) << c.name;
+    EXPECT_EQ(range.high_rad, c.stop_max_rad) << c.name;
   }
 }
 
