@@ -1,11 +1,9 @@
-#include <QBuffer>
-#include <QImage>
 #include <algorithm>
 #include <memory>
 
 #include "app/cli/commands.h"
+#include "app/cli/png_file.h"
 #include "app/scene/model_scene.h"
-#include "core/file.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -57,19 +55,8 @@ std::vector<BoneMesh> chosenBones(const Model& model, const std::vector<std::str
   return chosen;
 }
 
-std::string pngOf(const RgbImage& picture) {
-  const QImage image{picture.rgb.data(), picture.width_px, picture.height_px, 3 * picture.width_px,
-                     QImage::Format_RGB888};
-  QByteArray bytes;
-  QBuffer buffer{&bytes};
-  buffer.open(QIODevice::WriteOnly);
-  require(image.save(&buffer, "PNG"), "an image can be encoded");
-  return bytes.toStdString();
-}
-
 ExitStatus makePicture(const PictureOptions& o, Session& session) {
-  if (o.output.extension() != ".png")
-    throw InputError{{"sinew model picture", "--output", "a name that ends in .png", o.output.filename().string()}};
+  requirePngName(o.output, "sinew model picture");
   ModelPicture picture;
   picture.view = viewNamed(o.view);
   const auto [width, height] = sizeFrom(o.size);
@@ -79,7 +66,7 @@ ExitStatus makePicture(const PictureOptions& o, Session& session) {
   picture.muscles = !o.no_muscles && o.bones.empty();
   picture.mechanical_axes = false;
   picture.landmarks = o.landmarks;
-  writeFileAtomically(o.output, pngOf(renderModel(model, zeroPosture(model.skeleton), picture)));
+  writePng(renderModel(model, zeroPosture(model.skeleton), picture), o.output);
   session.result({{"format", "sinew.model_picture"},
                   {"version", 1},
                   {"view", o.view},

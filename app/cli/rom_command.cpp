@@ -1,7 +1,9 @@
 #include <memory>
 
 #include "app/cli/commands.h"
+#include "app/cli/png_file.h"
 #include "app/cli/text_table.h"
+#include "app/scene/rom_sphere.h"
 #include "core/rom/rom_map.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/text.h"
@@ -13,6 +15,7 @@ struct RomCommandOptions {
   std::string model, joint, compare_model;
   std::vector<std::string> held, compare_held;  ///< "knee_flexion_r=90"
   bool no_joint_limits = false;
+  std::filesystem::path output;
 };
 
 /// "knee_flexion_r=90" by name; later ones win.
@@ -49,6 +52,7 @@ std::string percent(double share) {
 }
 
 ExitStatus makeMap(const RomCommandOptions& o, Session& session) {
+  if (!o.output.empty()) requirePngName(o.output, "sinew rom");
   const Model model = session.model(o.model);
   const RomMapOptions options{.joint_limits = !o.no_joint_limits};
   const auto held_deg = coordinates_deg(o.held, "--with");
@@ -72,6 +76,7 @@ ExitStatus makeMap(const RomCommandOptions& o, Session& session) {
     rows.push_back({"differing, of all cells", std::to_string(d.differing()), percent(d.ofAll())});
     rows.push_back({"differing, of those valid in either", std::to_string(d.differing()), percent(d.ofUnion())});
   }
+  if (!o.output.empty()) writePng(renderRomSphere(map), o.output);
   session.result(json, textTable({map.joint, "cells", "share"}, rows));
   return ExitStatus::Done;
 }
@@ -89,6 +94,7 @@ void addRomCommand(Commands& commands) {
   command.add_option("--compare", o->compare_model, "another model, in the same posture");
   command.add_option("--compare-with", o->compare_held, "COORDINATE=DEGREES that the second map holds instead")
       ->allow_extra_args(false);
+  command.add_option("-o,--output", o->output, "picture of the sphere, coloured by twist range: .png");
   command.add_flag("--no-joint-limits", o->no_joint_limits, "muscles alone, without bony and ligament stops");
   command.callback(
       [&commands, o] { commands.chosen = [&session = commands.session, o] { return makeMap(*o, session); }; });

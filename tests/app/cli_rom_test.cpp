@@ -1,4 +1,6 @@
+#include "core/file.h"
 #include "tests/app/cli_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace sinew {
 namespace {
@@ -27,6 +29,14 @@ TEST(CliRom, TheMapComesAsRunsAndTheKneeFreesTheHip) {
   EXPECT_GT(compare["valid"].get<int>(), valid);  // Ryu et al.: wider with the knee flexed
   EXPECT_EQ(compare["differing"].get<int>(), compare["only_first"].get<int>() + compare["only_second"].get<int>());
   EXPECT_NEAR(compare["of_all"].get<double>(), compare["differing"].get<int>() / 23328.0, 1e-12);
+}
+
+TEST(CliRom, DrawsTheSphere) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "hip.png";
+  ASSERT_EQ(sinewProgram({"rom", "reference", "--joint", "hip_r", "-o", file.string()}).status, 0);
+  EXPECT_TRUE(readFile(file).starts_with("\x89PNG"));
+  EXPECT_THAT(sinewProgram({"rom", "reference", "--joint", "hip_r", "-o", "hip.bmp"}).err, HasSubstr(".png"));
 }
 
 TEST(CliRom, AModelDoesNotDifferFromItself) {
