@@ -78,7 +78,7 @@ TEST_F(Controllability, EveryCoordinateIsTurnedBothWaysWhenStanding) {
   }
 }
 
-/// To the very ends of the passive range, where a few straight lines of neck and ankle only lead back
+/// To the very ends of the passive range, where a few straight lines of the neck only lead back
 /// (docs/validation.md names them).
 TEST_F(Controllability, NearlyEveryCoordinateIsTurnedBothWaysInFiftyValidPostures) {
   EXPECT_GE(reachedIn(test::validPostures(skeleton_, musculature_, 50, 2026)), 0.99 * kDirections);

@@ -86,7 +86,7 @@ TEST(PathClearance, ReferenceMusclesEndOnBonesAndRunOutsideThem) {
   const auto found = measurePenetration(model, bones, rangePostures(model.skeleton, 15, 40));
   const auto clear = std::ranges::count_if(found, [](const PathPenetration& p) { return p.depth_m < 0.002; });
   std::printf("%td of %zu units stay less than 2 mm inside any bone\n", clear, found.size());
-  EXPECT_GE(clear, 235);  // of 282; the others are those between scapula and ribs, and a few extreme postures
+  EXPECT_GE(clear, 260);  // of 282; the others lie between scapula and ribs, or are latissimus of the adducted arm
   for (std::size_t u = 0; u < found.size(); ++u)
     EXPECT_LT(found[u].depth_m, 0.012) << model.musculature.units[u].name;
 }
