@@ -6,6 +6,7 @@
 
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/muscle/muscle_role.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -23,18 +24,6 @@ std::map<std::string, double> sidedPosture(const ExamTest& test, char side) {
   add(test.posture_deg, side);
   add(test.contralateral_posture_deg, side == 'r' ? 'l' : 'r');
   return posture_deg;
-}
-
-/// Some points of the path move with the coordinate and some do not (or move otherwise).
-bool spans(const MusculotendonUnit& unit, const Kinematics& k, int coordinate) {
-  const auto movedBy = [&](const Anchor& anchor) {
-    return std::ranges::any_of(k.motions[anchor.segment],
-                               [&](const SegmentMotion& m) { return m.coordinate == coordinate; });
-  };
-  bool moved = false, fixed = false;
-  for (const auto& point : unit.path)
-    for (const auto& anchor : point.anchors) (movedBy(anchor) ? moved : fixed) = true;
-  return moved && fixed;
 }
 
 }  // namespace
@@ -59,7 +48,7 @@ ExamSweep::ExamSweep(const Model& model, const ExamTest& test, char side) : mode
   auto posture_deg = sidedPosture(test, side);
   const Kinematics at_ease = clinicalKinematics(skeleton, postureFromDegrees(skeleton, posture_deg));
   for (int u = 0; u < static_cast<int>(model.musculature.units.size()); ++u)
-    if (spans(model.musculature.units[u], at_ease, index))
+    if (std::ranges::count(spannedCoordinates(model.musculature.units[u], at_ease), index) > 0)
       units_.push_back({u, std::vector<double>(samples), std::vector<double>(samples)});
   for (int i = 0; i < samples; ++i) {
     posture_deg[name] = low_deg + i * kStep_deg;
