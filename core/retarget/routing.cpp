@@ -154,7 +154,7 @@ class UnitRouter {
       iterations += from.iterations + found.iterations;
       if (found.energy < best.energy) best = found;
     };
-    refine(leastSquares(problem, {1}, start, 5, 1e-1, stop));
+    refine(leastSquares(problem, {.features = false}, start, 5, 1e-1, stop));
     refine(Minimum{start});
     constexpr double kWorthAnotherStart = 1;
     if (best.energy > kWorthAnotherStart) refine(descent(problem, start, {.most_iterations = 8}, stop));

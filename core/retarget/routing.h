@@ -21,16 +21,18 @@ std::string_view nameOf(RetargetMethod method);  ///< "naive", ...
 /// @throws InputError with the known names.
 RetargetMethod retargetMethodNamed(std::string_view name);
 
-/// Weights of the energy. The first two are the paper's. The others keep the musculature an anatomical one: prices of
-/// displacements, in metres of the reference body (a point of a bone twice as large moves twice as far for the same
-/// price), and of a function that turns into its opposite.
+/// Weights of the energy. The first two are the paper's. The third compares whole curves: two curves can agree in
+/// their extrema and still differ in moment arms in between, which ranges of motion and torques would show. The
+/// others keep the musculature an anatomical one: prices of displacements, in metres of the reference body (a point
+/// of a bone twice as large moves twice as far for the same price), and of a function that turns into its opposite.
 struct RoutingWeights {
-  double length = 10;              ///< w_l
-  double range = 50;               ///< w_Delta
-  double via_1_m2 = 100;           ///< a via point that moves by 1 cm costs 0.01 ...
-  double attachment_1_m2 = 10000;  ///< ... an attachment that slides on its bone by 1 cm costs 1 ...
-  double inside_1_m2 = 20000;      ///< ... and 1 cm into the bone that a via point glides on costs 2
-  double reversal = 10000;         ///< of a slope against the reference's, squared
+  double length = 10;             ///< w_l
+  double range = 50;              ///< w_Delta
+  double curve = 20;              ///< of the curve's mean squared deviation, relative to w_Delta
+  double via_1_m2 = 100;          ///< a via point that moves by 1 cm costs 0.01 ...
+  double attachment_1_m2 = 5000;  ///< ... an attachment that slides on its bone by 1 cm costs 0.5 ...
+  double inside_1_m2 = 20000;     ///< ... and 1 cm into the bone that a via point glides on costs 2
+  double reversal = 10000;        ///< of a slope against the reference's, squared
   friend bool operator==(const RoutingWeights&, const RoutingWeights&) = default;
 };
 
@@ -38,10 +40,13 @@ struct RoutingWeights {
 struct RoutingEnergy {
   double direction = 0;     ///< sum of squared cross products of force directions, integrated over theta
   double length = 0;        ///< theta_max, theta_min and Delta; not weighted by w_l yet
+  double curve = 0;         ///< mean squared deviation of the length-angle curves; not weighted yet
   double displacement = 0;  ///< price of moving the points
   double reversal = 0;      ///< price of lengthening where the reference shortens, or the other way
   double paper(const RoutingWeights& w) const { return direction + w.length * length; }
-  double total(const RoutingWeights& w) const { return paper(w) + displacement + reversal; }
+  double total(const RoutingWeights& w) const {
+    return paper(w) + w.length * w.range * w.curve * curve + displacement + reversal;
+  }
 };
 
 /// What became of one unit.

@@ -204,21 +204,21 @@ double UnitProblem::addFeatures(std::size_t motion, Expansion& e) const {
          (significance * (at_longest * at_longest + at_shortest * at_shortest) + weights_.range * range * range);
 }
 
-/// The smooth stand-in: the curve itself, its mean apart.
+/// The curve itself, its mean apart; in the expansion with the given weight.
 template <UnitProblem::Order kOrder>
-double UnitProblem::addCurve(std::size_t motion, double emphasis, Expansion& e) const {
+double UnitProblem::addCurve(std::size_t motion, double weight, Expansion& e) const {
   using Samples = Eigen::Matrix<double, kRoutingSamples, 1>;
   Samples off = Eigen::Map<const Samples>(lengths_.data()) -
                 Eigen::Map<const Samples>(&reference_->lengths[motion * kRoutingSamples]);
   off.array() -= off.mean();
-  const double weight = emphasis * weights_.range * motion_weight_[motion] / kRoutingSamples;
+  const double share = motion_weight_[motion] / kRoutingSamples;
   if constexpr (kOrder != Order::Value) {
     const Eigen::MatrixXd slopes = length_slopes_.colwise() - length_slopes_.rowwise().mean();
-    const double scale = 2 * weights_.length * weight;
+    const double scale = 2 * weight * share;
     e.gradient.noalias() += scale * (slopes * off);
     if constexpr (kOrder == Order::Hessian) e.hessian.selfadjointView<Eigen::Lower>().rankUpdate(slopes, scale);
   }
-  return weight * off.squaredNorm();
+  return share * off.squaredNorm();
 }
 
 /// Steps from sample to sample that go against a step that matters in the reference.
@@ -273,6 +273,7 @@ double UnitProblem::evaluate(const Eigen::VectorXd& x, Objective objective, Rout
   if constexpr (kOrder != Order::Value) e.gradient.setZero(unknowns());
   if constexpr (kOrder == Order::Hessian) e.hessian.setZero(unknowns(), unknowns());
   parts = {};
+  const double curve_weight = weights_.length * weights_.range * (objective.features ? weights_.curve : 1);
   for (const RigidPiece& rigid : rigid_) {
     PieceSum sum;
     addSample<kOrder>(x, rigid.motion * kRoutingSamples, rigid.piece, rigid.weight, -1, sum);
@@ -288,11 +289,14 @@ double UnitProblem::evaluate(const Eigen::VectorXd& x, Objective objective, Rout
                           motion_weight_[m] * integrationWeight(s), moving.changes_length ? s : -1, sum);
       parts.direction += collect<kOrder>(sum, moving.piece, e);
     }
-    parts.length += objective.curve > 0 ? addCurve<kOrder>(m, objective.curve, e) : addFeatures<kOrder>(m, e);
+    if (objective.features) parts.length += addFeatures<kOrder>(m, e);
+    parts.curve += addCurve<kOrder>(m, curve_weight, e);
     parts.reversal += addReversals<kOrder>(m, e);
   }
   parts.displacement = addPrices<kOrder>(x, e);
-  return e.energy = parts.total(weights_);
+  RoutingWeights weights = weights_;
+  if (!objective.features) weights.curve = 1;
+  return e.energy = parts.total(weights);
 }
 
 RoutingEnergy UnitProblem::parts(const Eigen::VectorXd& x) const {

@@ -7,10 +7,10 @@
 
 namespace sinew {
 
-/// What is minimised: RoutingEnergy::total(), or a smooth stand-in in which the whole curves are compared instead of
-/// their features, with `curve` times the weight of Delta.
+/// What is minimised: RoutingEnergy::total(), or a smooth stand-in that compares whole curves alone, without their
+/// features, whose places may jump.
 struct Objective {
-  double curve = 0;
+  bool features = true;
 };
 
 /// The routing energy of one unit in one new body as a function of the displacements of its points: three unknowns a
@@ -80,7 +80,7 @@ class UnitProblem {
   template <Order kOrder>
   double addFeatures(std::size_t motion, Expansion& e) const;
   template <Order kOrder>
-  double addCurve(std::size_t motion, double emphasis, Expansion& e) const;
+  double addCurve(std::size_t motion, double weight, Expansion& e) const;
   template <Order kOrder>
   double addReversals(std::size_t motion, Expansion& e) const;
   template <Order kOrder>
