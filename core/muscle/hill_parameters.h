@@ -1,4 +1,8 @@
 #pragma once
+#include <span>
+#include <string>
+#include <vector>
+
 namespace sinew {
 
 /// What a person may edit in the curves of one unit; the default values are those of Thelen 2003, young adults.
@@ -11,5 +15,25 @@ struct HillParameters {
   double max_lengthening = 1.4;  ///< force of the fastest lengthening over the isometric one
   friend bool operator==(const HillParameters&, const HillParameters&) = default;
 };
+
+/// One of them by its name in files and options, and what it may be.
+struct HillField {
+  std::string name;
+  double HillParameters::*value;
+  double low, high;
+};
+const std::vector<HillField>& hillFields();
+/// @throws InputError with the nearest names.
+const HillField& hillField(const std::string& name, const std::string& where);
+
+struct Musculature;
+
+/// "soleus", "active_width", 0.5: one figure of the curves of the units that a name means (unitsNamed()).
+struct CurveEdit {
+  std::string units, field;
+  double value;
+};
+/// The edits in their order. @throws InputError: unknown units or field, a value outside its range.
+Musculature withCurves(Musculature musculature, std::span<const CurveEdit> edits);
 
 }  // namespace sinew
