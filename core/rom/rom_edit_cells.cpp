@@ -46,7 +46,7 @@ ThresholdColumn sorted(const std::vector<double>& value) {
 
 }  // namespace
 
-JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPosture>& held)
+JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPosture>& held, const Job& job)
     : joint_{joint},
       first_coordinate_{model.skeleton.joints[joint].first_coordinate},
       ball_{model.skeleton.joints[joint].type == JointType::Ball},
@@ -75,7 +75,7 @@ JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPost
     first_angle_rad_ = (low + 0.5) * kDegree;  // cells between whole degrees: no stop lies on a cell
     cells_ = static_cast<std::size_t>(high - low);
   }
-  measure();
+  measure(job);
 }
 
 double JointCells::angle_rad(std::size_t cell) const {
@@ -91,11 +91,11 @@ Posture JointCells::posture(const Posture& held, std::size_t cell) const {
   return q;
 }
 
-void JointCells::measure() {
+void JointCells::measure(const Job& job) {
   std::vector<std::vector<double>> length_m(units_.size(), std::vector<double>(sampleCount()));
   constexpr std::size_t kChunk = 1024;
   PoseTable lengths;
-  for (std::size_t first = 0; first < sampleCount(); first += kChunk) {
+  for (std::size_t first = 0; first < sampleCount() && !job.cancelled(); first += kChunk) {
     const std::size_t count = std::min(kChunk, sampleCount() - first);
     PoseTable postures{count, std::size_t(compiled_.coordinateCount())};
     for (std::size_t i = 0; i < count; ++i)
@@ -104,7 +104,8 @@ void JointCells::measure() {
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t u = 0; u < units_.size(); ++u) length_m[u][first + i] = lengths(i, u);
   }
-  for (const auto& values : length_m) columns_.push_back(sorted(values));
+  for (const auto& values : length_m)
+    if (!job.cancelled()) columns_.push_back(sorted(values));
 }
 
 std::vector<std::uint8_t> JointCells::allowed(const std::vector<double>& longest_m) const {

@@ -14,7 +14,8 @@ namespace sinew {
 /// Sample = slice * cellCount() + cell.
 class JointCells {
  public:
-  JointCells(const Model& model, int joint, const std::vector<HeldPosture>& held);
+  /// Incomplete if cancelled.
+  JointCells(const Model& model, int joint, const std::vector<HeldPosture>& held, const Job& job);
 
   int joint() const { return joint_; }
   bool isBall() const { return ball_; }
@@ -37,7 +38,7 @@ class JointCells {
 
  private:
   Posture posture(const Posture& held, std::size_t cell) const;
-  void measure();
+  void measure(const Job& job);
 
   int joint_, first_coordinate_;
   bool ball_;

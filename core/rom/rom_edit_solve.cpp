@@ -1,14 +1,12 @@
 #include "core/rom/rom_edit_solve.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <set>
 
 #include "core/error.h"
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
-#include "core/rom/rom_edit_goal_internal.h"
+#include "core/rom/rom_edit_problem_internal.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -38,52 +36,6 @@ std::vector<double> longestOver(const PoseSet& poses, const Skeleton& skeleton, 
     }
   };
   return sweepPostures(CompiledModel{skeleton, units}, poses.size(), read).longest_m;
-}
-
-/// Columns of all edited joints side by side: a unit that spans two of them has the samples of both.
-struct JoinedProblem {
-  std::vector<int> units;
-  std::vector<ThresholdColumn> columns;
-  ThresholdProblem problem;
-};
-
-void appendColumn(const ThresholdColumn& from, std::uint32_t first_sample, ThresholdColumn& to) {
-  if (to.value.empty() && first_sample == 0) {
-    to = from;
-    return;
-  }
-  ThresholdColumn merged;
-  std::size_t i = 0, k = 0;
-  while (i < to.value.size() || k < from.value.size()) {
-    const bool mine = k == from.value.size() || (i < to.value.size() && to.value[i] <= from.value[k]);
-    merged.value.push_back(mine ? to.value[i] : from.value[k]);
-    merged.sample.push_back(mine ? to.sample[i] : from.sample[k] + first_sample);
-    ++(mine ? i : k);
-  }
-  to = std::move(merged);
-}
-
-JoinedProblem join(const std::vector<JointGoal>& goals, double weight_beyond_stops) {
-  std::map<int, ThresholdColumn> by_unit;
-  JoinedProblem joined;
-  ThresholdProblem& p = joined.problem;
-  for (const JointGoal& goal : goals) {
-    const JointCells& cells = *goal.cells;
-    const auto first = static_cast<std::uint32_t>(p.wanted.size());
-    for (std::size_t i = 0; i < cells.units().size(); ++i)
-      appendColumn(cells.columns()[i], first, by_unit[cells.units()[i]]);
-    for (std::size_t s = 0; s < cells.sampleCount(); ++s) {
-      const bool reachable = goal.inside[s % cells.cellCount()] || goal.stops[s % cells.cellCount()];
-      p.wanted.push_back(goal.muscles[s]);
-      p.weight.push_back(cells.held()[s / cells.cellCount()].weight * (reachable ? 1 : weight_beyond_stops));
-    }
-  }
-  for (auto& [unit, column] : by_unit) {
-    joined.units.push_back(unit);
-    joined.columns.push_back(std::move(column));
-  }
-  for (const auto& column : joined.columns) p.columns.push_back(&column);
-  return joined;
 }
 
 RomEditCells countedCells(const Skeleton& skeleton, const JointGoal& goal, const std::vector<std::uint8_t>& allowed,
@@ -159,10 +111,12 @@ struct RomEditSolver::State {
   std::vector<double> longest_path_m;  ///< over the set, by unit
   std::map<int, JointCells> cells;     ///< by joint
 
-  const JointCells& cellsOf(int joint) {
+  /// Null if cancelled.
+  const JointCells* cellsOf(int joint, const Job& job) {
     const auto found = cells.find(joint);
-    if (found != cells.end()) return found->second;
-    return cells.emplace(joint, JointCells{reference, joint, heldPostures(reference.skeleton, joint)}).first->second;
+    if (found != cells.end()) return &found->second;
+    JointCells made{reference, joint, heldPostures(reference.skeleton, joint), job};
+    return job.cancelled() ? nullptr : &cells.emplace(joint, std::move(made)).first->second;
   }
 
   /// Factor on the length of every given unit, as the paper has it.
@@ -180,15 +134,14 @@ struct RomEditSolver::State {
 std::vector<double> RomEditSolver::State::sinewFactors(std::vector<JointGoal>& goals, const RomTransform& transform,
                                                        const std::vector<int>& units, const std::vector<double>& paper,
                                                        const RomEditOptions& options, const Job& job) const {
-  const JoinedProblem joined = join(goals, options.weight_beyond_stops);
+  const JoinedProblem joined = joinedProblem(goals, options.weight_of_muscles_alone);
   require(joined.units == units, "the units of the problem are those that span an edited joint");
   std::vector<double> longest_m, by_paper_m;
   for (std::size_t i = 0; i < units.size(); ++i) {
     longest_m.push_back(longestLength_m(reference.musculature.units[std::size_t(units[i])]));
     by_paper_m.push_back(longest_m.back() * paper[i]);
   }
-  const std::vector<double> open(units.size(), std::numeric_limits<double>::infinity());
-  const ThresholdFit fit = fitThresholds(joined.problem, {by_paper_m, longest_m, open}, longest_m, by_paper_m, job);
+  const ThresholdFit fit = fitThresholds(joined.problem, {by_paper_m, longest_m}, longest_m, by_paper_m, job);
   if (fit.outcome != Outcome::Converged) return {};
   std::vector<double> all_m = longestLengths_m(reference.musculature), factors;
   for (std::size_t i = 0; i < units.size(); ++i) {
@@ -217,30 +170,33 @@ const RomCentres& RomEditSolver::centres() const {
 RomTransform RomEditSolver::transform(const RomEdits& edits) const {
   return {state_->reference.skeleton, state_->centres, edits};
 }
-void RomEditSolver::prepare(const std::string& joint) {
-  state_->cellsOf(state_->reference.skeleton.jointIndex(joint));
+void RomEditSolver::prepare(const std::string& joint, const Job& job) {
+  state_->cellsOf(state_->reference.skeleton.jointIndex(joint), job);
 }
 
 RomEditResult RomEditSolver::solve(const RomEdits& edits, const RomEditOptions& options, const Job& job) {
   const Model& reference = state_->reference;
   const RomTransform transform = this->transform(edits);
-  RomEditResult result{.outcome = Outcome::Cancelled, .model = reference};
+  const RomEditResult cancelled{.outcome = Outcome::Cancelled, .model = reference};
+  RomEditResult result = cancelled;
   std::vector<JointGoal> goals;
   std::set<int> spanning;
   for (const int joint : transform.joints()) {
-    if (job.cancelled()) return result;
-    const JointCells& cells = state_->cellsOf(joint);
-    goals.push_back(goalOf(reference, transform, cells));
-    spanning.insert(cells.units().begin(), cells.units().end());
+    const JointCells* cells = state_->cellsOf(joint, job);
+    if (!cells) return cancelled;
+    goals.push_back(goalOf(reference, transform, *cells));
+    spanning.insert(cells->units().begin(), cells->units().end());
     if (std::ranges::count(goals.back().muscles, 1) == 0)
       throw InputError{{"range-of-motion edit", reference.skeleton.joints[joint].name,
                         "an edit that leaves the joint a posture", "none in any cell"}};
   }
   const std::vector<int> units{spanning.begin(), spanning.end()};
+  result.outcome = Outcome::Converged;
+  if (goals.empty()) return result;
   std::vector<double> factors = state_->paperFactors(transform, units, job);
-  if (!job.cancelled() && options.method == RomEditMethod::Sinew && !goals.empty())
+  if (!job.cancelled() && options.method == RomEditMethod::Sinew)
     factors = state_->sinewFactors(goals, transform, units, factors, options, job);
-  if (job.cancelled()) return result;
+  if (job.cancelled()) return cancelled;
   for (std::size_t i = 0; i < units.size(); ++i) setLength(result.model, units[i], factors[i], result.changed);
   const auto longest_m = longestLengths_m(result.model.musculature);
   for (const JointGoal& goal : goals) {
@@ -249,7 +205,6 @@ RomEditResult RomEditSolver::solve(const RomEdits& edits, const RomEditOptions& 
     for (std::size_t slice = 0; slice < goal.cells->held().size(); ++slice)
       result.cells.push_back(countedCells(reference.skeleton, goal, allowed, slice));
   }
-  result.outcome = Outcome::Converged;
   return result;
 }
 

@@ -62,8 +62,9 @@ struct RomEditResult {
 
 struct RomEditOptions {
   RomEditMethod method = RomEditMethod::Sinew;
-  /// Weight of cells outside the edited stops, which no posture of the body reaches; a multiple of 1/16.
-  double weight_beyond_stops = 1.0 / 16;
+  /// What a cell counts by which the muscles alone are wrong, be it beyond the stops where no posture of the body is; a
+  /// cell by which muscles and stops together are wrong counts 1. A multiple of 1/64.
+  double weight_of_muscles_alone = 1.0 / 16;
 };
 
 /// Solves edits of one reference. The pose set and, for each joint when it is first edited, the lengths of its units in
@@ -80,7 +81,7 @@ class RomEditSolver {
   RomTransform transform(const RomEdits& edits) const;
 
   /// Prepares a joint before its first edit (tenths of a second).
-  void prepare(const std::string& joint);
+  void prepare(const std::string& joint, const Job& job = {});
   /// @throws InputError as checkRomEdits(), or if an edit leaves a joint no cell at all.
   RomEditResult solve(const RomEdits& edits, const RomEditOptions& options = {}, const Job& job = {});
 

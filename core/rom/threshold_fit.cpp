@@ -10,102 +10,149 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Weights are multiples of this: sums of integers are exact, whatever their order.
+constexpr double kWeightUnit = 1.0 / 1024;
+
 /// Thresholds as numbers of accepted entries, and how many columns forbid each sample.
 class Descent {
  public:
-  explicit Descent(const ThresholdProblem& problem) : p_{problem}, violations_(problem.wanted.size(), 0) {
-    accepted_.assign(p_.columns.size(), 0);
-    for (std::size_t c = 0; c < p_.columns.size(); ++c) {
-      accepted_[c] = p_.columns[c]->value.size();
+  explicit Descent(const ThresholdProblem& problem) {
+    for (std::size_t s = 0; s < problem.wanted.size(); ++s) {
+      const int weight = static_cast<int>(std::lround(problem.weight[s] / kWeightUnit));
+      samples_.push_back({problem.wanted[s] ? weight : -weight, 0});
     }
+    for (const ThresholdColumn* column : problem.columns) addColumn(*column);
   }
 
   void set(std::size_t column, double threshold) {
-    const auto& value = p_.columns[column]->value;
+    const auto& value = values_[column];
     move(column, std::size_t(std::ranges::upper_bound(value, threshold) - value.begin()));
   }
   void move(std::size_t column, std::size_t accepted) {
-    const auto& sample = p_.columns[column]->sample;
-    for (; accepted_[column] < accepted; ++accepted_[column]) --violations_[sample[accepted_[column]]];
-    for (; accepted_[column] > accepted; --accepted_[column]) ++violations_[sample[accepted_[column] - 1]];
+    const auto& entries = entries_[column];
+    auto& present = accepted_[column];
+    for (; present < accepted; ++present) --samples_[entries[present] >> 1].violations;
+    for (; present > accepted; --present) ++samples_[entries[present - 1] >> 1].violations;
   }
 
-  double error() const {
-    double sum = 0;
-    for (std::size_t s = 0; s < violations_.size(); ++s)
-      if ((violations_[s] == 0) != bool(p_.wanted[s])) sum += p_.weight[s];
+  /// Weight of the wrong samples, in units.
+  long error() const {
+    long sum = 0;
+    for (const Sample& s : samples_)
+      if ((s.violations == 0) != (s.gain > 0)) sum += std::abs(s.gain);
     return sum;
   }
 
-  /// Best number of accepted entries of one column, and what moving there gains; the present one if none is better.
-  std::pair<std::size_t, double> best(std::size_t column) const {
-    const auto& [value, sample] = *p_.columns[column];
-    double gain = 0, most = 0, present = 0;
-    std::size_t where = 0;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::uint32_t s = sample[i];
-      if (violations_[s] == (i >= accepted_[column])) gain += p_.wanted[s] ? p_.weight[s] : -p_.weight[s];
-      if (i + 1 < value.size() && value[i + 1] == value[i]) continue;
-      if (gain > most) most = gain, where = i + 1;
-      if (i + 1 == accepted_[column]) present = gain;
-    }
-    return most > present ? std::pair{where, most - present} : std::pair{accepted_[column], 0.0};
-  }
-
-  /// To where no single column can gain anything. @returns the error.
-  double descend(double error, const Job& job, std::ptrdiff_t held_open = -1) {
+  /// To where no single column can gain anything: one after the other, from the first or from the last.
+  void descendInOrder(bool backwards, const Job& job) {
+    const std::size_t count = entries_.size();
     for (bool moved = true; moved && !job.cancelled();) {
       moved = false;
-      for (std::size_t c = 0; c < p_.columns.size(); ++c) {
-        if (std::ptrdiff_t(c) == held_open) continue;
-        const auto [accepted, gain] = best(c);
-        if (gain <= 0) continue;
-        move(c, accepted);
-        error -= gain;
-        moved = true;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t column = backwards ? count - 1 - i : i;
+        const Move best = bestMove(column);
+        if (best.gain > 0) move(column, best.accepted), moved = true;
       }
     }
-    return error;
+  }
+
+  /// The same, always the column that gains most.
+  void descendSteepest(const Job& job) {
+    while (!job.cancelled()) {
+      Move most;
+      std::size_t of = 0;
+      for (std::size_t column = 0; column < entries_.size(); ++column)
+        if (const Move best = bestMove(column); best.gain > most.gain) most = best, of = column;
+      if (most.gain <= 0) return;
+      move(of, most.accepted);
+    }
   }
 
   /// Among the best values of one column the one that is `reference`, or nearest to it and then nearest to
   /// `preferred`; well inside the gap between two samples.
   double bestValue(std::size_t column, double reference, double preferred) const {
-    const auto& [value, sample] = *p_.columns[column];
-    double gain = 0, most = -kInfinity;
+    const auto& value = values_[column];
+    long most = std::numeric_limits<long>::min();
     double chosen = reference, distance = kInfinity;
-    const auto consider = [&](double low, double high) {
+    const auto consider = [&](std::size_t accepted, long gain) {
       if (gain < most) return;
       if (gain > most) most = gain, distance = kInfinity;
+      const double low = accepted > 0 ? value[accepted - 1] : -kInfinity;
+      const double high = accepted < value.size() ? value[accepted] : kInfinity;
       const double apart = reference < low ? low - reference : reference >= high ? reference - high : 0;
-      if (apart >= distance) return;
+      if (apart > 0 ? apart >= distance : distance == 0) return;
       distance = apart;
-      chosen = apart == 0 ? reference : inside(low, high, preferred);
+      chosen = reference >= low && reference < high ? reference : inside(low, high, preferred);
     };
-    if (!value.empty()) consider(-kInfinity, value.front());
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::uint32_t s = sample[i];
-      if (violations_[s] == (i >= accepted_[column])) gain += p_.wanted[s] ? p_.weight[s] : -p_.weight[s];
-      if (i + 1 < value.size() && value[i + 1] == value[i]) continue;
-      consider(value[i], i + 1 < value.size() ? value[i + 1] : kInfinity);
-    }
+    consider(0, 0);
+    scan(column, consider);
     return chosen;
   }
 
-  std::vector<std::size_t> accepted() const { return accepted_; }
-  void restore(const std::vector<std::size_t>& accepted) {
-    for (std::size_t c = 0; c < accepted.size(); ++c) move(c, accepted[c]);
-  }
+  const std::vector<std::size_t>& accepted() const { return accepted_; }
 
  private:
+  struct Sample {
+    int gain;  ///< of letting it pass
+    int violations;
+  };
+
+  struct Move {
+    std::size_t accepted = 0;
+    long gain = 0;
+  };
+
+  Move bestMove(std::size_t column) const {
+    long most = 0, present = 0;
+    std::size_t where = 0;
+    scan(column, [&](std::size_t accepted, long gain) {
+      if (gain > most) most = gain, where = accepted;
+      if (accepted == accepted_[column]) present = gain;
+    });
+    return {where, most - present};
+  }
+
+  /// Samples that weigh nothing are left out.
+  void addColumn(const ThresholdColumn& column) {
+    std::vector<std::uint32_t> entries;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < column.value.size(); ++i) {
+      if (samples_[column.sample[i]].gain == 0) continue;
+      if (!values.empty() && values.back() != column.value[i]) entries.back() |= 1;
+      entries.push_back(column.sample[i] << 1);
+      values.push_back(column.value[i]);
+    }
+    if (!entries.empty()) entries.back() |= 1;
+    accepted_.push_back(values.size());
+    entries_.push_back(std::move(entries));
+    values_.push_back(std::move(values));
+  }
+
+  /// Calls see(accepted, gain) for every place of the column's threshold but the first, given all others.
+  template <class See>
+  void scan(std::size_t column, const See& see) const {
+    const auto& entries = entries_[column];
+    long gain = 0;
+    const auto over = [&](std::size_t begin, std::size_t end, int others_allow) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Sample s = samples_[entries[i] >> 1];
+        gain += s.gain & -int(s.violations == others_allow);
+        if (entries[i] & 1) see(i + 1, gain);
+      }
+    };
+    over(0, accepted_[column], 0);
+    over(accepted_[column], entries.size(), 1);
+  }
+
   static double inside(double low, double high, double preferred) {
     constexpr double kMargin_m = 1e-5;  // twice what maps decide in double (GridView::kClose_m)
     const double margin = std::min(kMargin_m, (high - low) / 2);
     return std::clamp(preferred, low + margin, high - margin);
   }
 
-  const ThresholdProblem& p_;
-  std::vector<std::uint16_t> violations_;
+  std::vector<Sample> samples_;
+  std::vector<std::vector<std::uint32_t>> entries_;  ///< by column: 2 * sample + 1 if the next value is another one
+  std::vector<std::vector<double>> values_;
   std::vector<std::size_t> accepted_;
 };
 
@@ -158,7 +205,7 @@ CompactProblem compact(const ThresholdProblem& problem, const std::vector<double
 double thresholdError(const ThresholdProblem& problem, const std::vector<double>& threshold) {
   Descent d{problem};
   for (std::size_t c = 0; c < threshold.size(); ++c) d.set(c, threshold[c]);
-  return d.error();
+  return double(d.error()) * kWeightUnit;
 }
 
 ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<std::vector<double>>& starts,
@@ -170,27 +217,16 @@ ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<st
   const std::size_t columns = problem.columns.size();
   Descent descent{small.problem};
   std::vector<std::size_t> best;
-  double least = kInfinity;
-  const auto keep = [&](double error) {
-    if (error >= least) return false;
-    least = error;
-    best = descent.accepted();
-    return true;
+  long least = std::numeric_limits<long>::max();
+  const auto from = [&](const std::vector<double>& start, const auto& descend) {
+    for (std::size_t c = 0; c < columns; ++c) descent.set(c, std::min(start[c], bounds[c]));
+    descend();
+    if (const long error = descent.error(); error < least) least = error, best = descent.accepted();
   };
   for (const auto& start : starts) {
-    for (std::size_t c = 0; c < columns; ++c) descent.set(c, std::min(start[c], bounds[c]));
-    keep(descent.descend(descent.error(), job));
-  }
-  // Opened one at a time: a column may have taken what another one does better.
-  for (bool improved = true; improved && !job.cancelled();) {
-    improved = false;
-    for (std::size_t c = 0; c < columns && !job.cancelled(); ++c) {
-      descent.restore(best);
-      descent.move(c, small.columns[c].value.size());
-      descent.descend(0, job, std::ptrdiff_t(c));
-      descent.descend(0, job);
-      improved = keep(descent.error()) || improved;
-    }
+    from(start, [&] { descent.descendInOrder(false, job); });
+    from(start, [&] { descent.descendInOrder(true, job); });
+    from(start, [&] { descent.descendSteepest(job); });
   }
   ThresholdFit fit;
   if (job.cancelled()) {
@@ -202,14 +238,13 @@ ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<st
   for (std::size_t c = 0; c < columns; ++c) {
     const auto& value = small.columns[c].value;
     fit.threshold.push_back(best[c] == value.size() ? bounds[c] : best[c] > 0 ? value[best[c] - 1] : -kInfinity);
-    whole.set(c, fit.threshold.back());
+    whole.set(c, fit.threshold[c]);
   }
-  for (int pass = 0; pass < 2; ++pass)
-    for (std::size_t c = 0; c < columns; ++c) {
-      fit.threshold[c] = whole.bestValue(c, reference[c], preferred[c]);
-      whole.set(c, fit.threshold[c]);
-    }
-  fit.error = whole.error();
+  for (std::size_t c = 0; c < columns; ++c) {
+    fit.threshold[c] = whole.bestValue(c, reference[c], preferred[c]);
+    whole.set(c, fit.threshold[c]);
+  }
+  fit.error = double(whole.error()) * kWeightUnit;
   fit.outcome = Outcome::Converged;
   return fit;
 }

@@ -10,7 +10,8 @@ namespace sinew {
 // passes if every column that knows it has a value at most the column's threshold: maps of a joint (samples are cells,
 // columns muscles, values path lengths). The error, the weight of the samples that pass and should not or do not and
 // should, is piecewise constant; with all other thresholds held the best of one column is found exactly in one pass
-// over its sorted values. Cyclic descent from several starts, then from each of them with one column opened at a time.
+// over its sorted values. That gets stuck, so it is done from every start in three ways: columns in their order, in
+// the reverse order, always the one that gains most.
 
 struct ThresholdColumn {
   std::vector<double> value;           ///< ascending
@@ -20,7 +21,7 @@ struct ThresholdColumn {
 struct ThresholdProblem {
   std::vector<const ThresholdColumn*> columns;
   std::vector<std::uint8_t> wanted;  ///< by sample
-  std::vector<double> weight;        ///< by sample; sums must be exact in double (multiples of a power of two)
+  std::vector<double> weight;        ///< by sample; a multiple of 1/1024
 };
 
 struct ThresholdFit {
