@@ -38,6 +38,7 @@ void addPhysicsCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addRomEditCommand(Commands& commands);
 void addExportCommand(Commands& commands);
 void addBenchCommand(Commands& commands);
 void addRomTestsCommand(Commands& commands);
