@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/muscle/muscle_path.h"
+
 namespace sinew {
 namespace {
 
@@ -11,9 +13,9 @@ struct Extent {
   double left = std::numeric_limits<double>::infinity(), right = -left, low = left, high = -left;
 };
 
-/// Of the bones, with room for the flesh.
+/// Of bones and paths, with room for the flesh.
 Extent extentOf(const LineupBody& body, const Eigen::Matrix3d& R_WC) {
-  constexpr double kFlesh_m = 0.05;
+  constexpr double kFlesh_m = 0.02;
   const auto X_WB = segmentPoses(body.model->skeleton, body.posture);
   Extent e;
   for (const auto& bone : *body.model->bones) {
@@ -25,6 +27,11 @@ Extent extentOf(const LineupBody& body, const Eigen::Matrix3d& R_WC) {
       e = {std::min(e.left, x), std::max(e.right, x), std::min(e.low, y), std::max(e.high, y)};
     }
   }
+  for (const auto& unit : body.model->musculature.units)
+    for (const Eigen::Vector3d& p : pathPoints(unit, X_WB)) {
+      const double x = R_WC.col(0).dot(p), y = R_WC.col(1).dot(p);
+      e = {std::min(e.left, x), std::max(e.right, x), std::min(e.low, y), std::max(e.high, y)};
+    }
   return {e.left - kFlesh_m, e.right + kFlesh_m, e.low, e.high};
 }
 

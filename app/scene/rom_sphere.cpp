@@ -154,11 +154,11 @@ void RomSphereScene::setHandles(const std::optional<RomHandles>& handles) {
 Eigen::Vector3d RomSphereScene::borderHandle_J() const {
   if (!parts_->handles) return parts_->shaft_J;
   const auto& [centre_J, cone_rad] = *parts_->handles;
-  // Of all points of the border the one that looks most to the viewer's right and up: away from the words.
+  // Of all points of the border the one that lies most to the viewer's left and below: away from the words.
   vtkCamera* camera = parts_->renderer.GetActiveCamera();
   const Eigen::Vector3d towards = -Eigen::Map<const Eigen::Vector3d>{camera->GetDirectionOfProjection()};
   const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>{camera->GetViewUp()};
-  const Eigen::Vector3d wish = 0.8 * towards + 0.7 * up.cross(towards) + 0.35 * up;
+  const Eigen::Vector3d wish = 0.8 * towards - 0.6 * up.cross(towards) - 0.45 * up;
   Eigen::Vector3d across = wish - wish.dot(centre_J) * centre_J;
   if (across.norm() < 1e-6) across = centre_J.unitOrthogonal();
   return std::cos(cone_rad) * centre_J + std::sin(cone_rad) * across.normalized();
@@ -220,7 +220,7 @@ void RomSphereScene::lookFromTheFront() {
   camera->SetFocalPoint(0, 0, 0);
   camera->SetPosition(out.data());
   camera->SetViewUp(0, 1, 0);
-  camera->SetParallelScale(1.40 * kRadius);
+  camera->SetParallelScale(1.48 * kRadius);  // the words need room
   parts_->hideWordsBehind();
   r.ResetCameraClippingRange();
 }

@@ -54,7 +54,7 @@ StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, w
                            [this] { workspace_.view().setRetargeting(true); });
   column->addWidget(explorer_);
   column->addWidget(retargeting_);
-  column->addSpacing(6);
+  column->addSpacing(12);
   run_all_ = new QPushButton{icon("play-all", Qt::white), tr("Run all")};
   run_all_->setObjectName("run_all");
   run_all_->setProperty("role", "primary");

@@ -37,6 +37,13 @@ class WordFilter : public QSortFilterProxyModel {
   QStringList words_;
 };
 
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 }  // namespace
 
 ChangeInspector::ChangeInspector(QWidget* parent) : QWidget{parent} {
@@ -69,7 +76,7 @@ ChangeInspector::ChangeInspector(QWidget* parent) : QWidget{parent} {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Fixed);
   header->setSectionResizeMode(0, QHeaderView::Stretch);
-  constexpr int kWidths[] = {0, 66, 84, 80, 66, 62, 78, 78};
+  constexpr int kWidths[] = {0, 72, 84, 76, 62, 60, 74, 70};
   for (int c = 1; c < ChangeTable::kColumns; ++c) header->resizeSection(c, kWidths[c]);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(0, 0, 0, 0);
@@ -82,11 +89,15 @@ ChangeInspector::ChangeInspector(QWidget* parent) : QWidget{parent} {
   column->addLayout(top);
   column->addWidget(list_, 1);
 
-  connect(search_, &QLineEdit::textChanged, this, [this, filter](const QString& text) { filter->setWords(text); });
+  connect(search_, &QLineEdit::textChanged, this, [this, filter](const QString& text) {
+    filter->setWords(text);
+    list_->scrollToTop();
+  });
   connect(search_, &QLineEdit::returnPressed, this, [this] {
     if (order_->rowCount() == 0) return;
     list_->setFocus();
     list_->selectRow(0);
+    list_->scrollToTop();
   });
   connect(list_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& index) {
     if (index.isValid()) emit chosen(table_->unitOf(order_->mapToSource(index).row()));
@@ -103,17 +114,16 @@ void ChangeInspector::summarise(const SolvedBody* body) {
     summary_->setText(tr("The muscles are listed when they are retargeted."));
     return;
   }
-  int worse = 0, changed = 0, reversed_naive = 0, reversed = 0;
-  constexpr double kFelt = 0.01;  // of energy: below, nobody sees a difference in the curves
+  std::vector<double> naive, retargeted;
+  int reversed_naive = 0, reversed = 0;
   for (const MuscleChange& c : body->changes) {
-    changed += c.energy_naive > kFelt;
-    worse += c.energy > kFelt;
+    naive.push_back(c.energy_naive);
+    retargeted.push_back(c.energy);
     reversed_naive += c.reversals_naive > 0;
     reversed += c.reversals > 0;
   }
-  summary_->setText(tr("Function changed: %1 muscles naive, %2 retargeted. Reversed somewhere: %3, %4.")
-                        .arg(changed)
-                        .arg(worse)
+  summary_->setText(tr("Median change of function %1 naive, %2 retargeted. Muscles reversed somewhere: %3, %4.")
+                        .arg(energyText(median(naive)), energyText(median(retargeted)))
                         .arg(reversed_naive)
                         .arg(reversed));
 }

@@ -7,15 +7,10 @@
 #include "app/widgets/theme.h"
 
 namespace sinew {
-namespace {
-
-/// "0", "0.034", "12.1": three figures tell energies of very different size apart.
 QString energyText(double energy) {
   if (energy < 5e-4) return QStringLiteral("0");
   return figure(energy, energy < 1 ? 3 : energy < 100 ? 2 : 0);
 }
-
-}  // namespace
 
 ChangeTable::ChangeTable(QObject* parent) : QAbstractTableModel{parent} {}
 

@@ -31,4 +31,7 @@ class ChangeTable : public QAbstractTableModel {
   bool current_ = false;
 };
 
+/// "0", "0.034", "12.1": three figures tell energies of very different size apart.
+QString energyText(double energy);
+
 }  // namespace sinew

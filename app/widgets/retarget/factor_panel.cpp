@@ -32,7 +32,7 @@ QDoubleSpinBox* makeFactor(const QString& object_name, const QString& spoken, co
   field->setSingleStep(0.05);
   field->setRange(0.01, 100);
   field->setPrefix(QStringLiteral("× "));
-  field->setFixedWidth(78);
+  field->setFixedWidth(86);
   return field;
 }
 
@@ -63,7 +63,7 @@ QWidget* FactorPanel::makeMasses() {
     rule->setAccessibleName(tr("Mass of the %1 is given").arg(title.toLower()));
     rule->setToolTip(
         tr("As the deformed volume weighs; times that; or over the reference's mass, whatever the volume"));
-    rule->addItems({tr("by volume"), tr("volume times"), tr("reference times")});
+    rule->addItems({tr("volume"), tr("× volume"), tr("× reference")});
     auto* value = makeFactor("mass_value_" + name, tr("Mass factor of the %1").arg(title.toLower()),
                              tr("Mass of the %1, relative to what is named before").arg(title.toLower()));
     auto* label = makeLabel(title, "");
@@ -107,8 +107,8 @@ QWidget* FactorPanel::makeStrengths() {
       tr("Maximal isometric force over the reference's; what is not listed follows the cross-section"));
   strengths_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   for (const int column : {1, 2}) strengths_->horizontalHeader()->setSectionResizeMode(column, QHeaderView::Fixed);
-  strengths_->horizontalHeader()->resizeSection(1, 84);
-  strengths_->horizontalHeader()->resizeSection(2, 34);
+  strengths_->horizontalHeader()->resizeSection(1, 88);
+  strengths_->horizontalHeader()->resizeSection(2, 44);
   strengths_->verticalHeader()->setDefaultSectionSize(36);
   auto* column = new QVBoxLayout{box};
   column->setContentsMargins(0, 0, 0, 0);
@@ -175,7 +175,6 @@ void FactorPanel::refreshStrengths() {
       setCell(*strengths_, row, 0, title)->setToolTip(title);
       auto* value = makeFactor("strength_" + QString::fromStdString(name), tr("Strength of %1").arg(title),
                                tr("Maximal isometric force of %1 over the reference's").arg(title));
-      value->setFixedWidth(80);
       connect(value, &QDoubleSpinBox::valueChanged, this, [this, name, title](double factor) {
         document_.edit(tr("Strength of %1").arg(title),
                        [&](RetargetDesign& d) { d.body.physics.strength_factors[name] = factor; });

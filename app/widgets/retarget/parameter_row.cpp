@@ -19,14 +19,14 @@ constexpr double kPerDegree = 10;
 
 ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent}, is_angle_{look.is_angle} {
   title_ = makeLabel(look.title, "");
-  title_->setFixedWidth(76);
+  title_->setFixedWidth(84);
   title_->setToolTip(look.tip);
   slider_ = new RangeSlider;
   slider_->setObjectName("slider_" + look.name);
   slider_->setAccessibleName(look.spoken);
   slider_->setToolTip(look.tip);
   slider_->setFixedHeight(22);
-  slider_->setMinimumWidth(84);
+  slider_->setMinimumWidth(76);
   slider_->setRange(toSlider(look.slider_low), toSlider(look.slider_high));
   field_ = new PatientSpinBox;
   field_->setObjectName("value_" + look.name);
@@ -40,7 +40,7 @@ ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent},
     field_->setSuffix(QStringLiteral("°"));
   else
     field_->setPrefix(QStringLiteral("× "));
-  field_->setFixedWidth(74);
+  field_->setFixedWidth(86);
   auto* row = new QHBoxLayout{this};
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(4);

@@ -23,8 +23,8 @@ class RangeBar : public QWidget {
   void setRange(const Range& range);
   const Range& range() const { return range_; }
 
-  QSize sizeHint() const override { return {420, 84}; }
-  QSize minimumSizeHint() const override { return {220, 84}; }
+  QSize sizeHint() const override { return {420, 80}; }
+  QSize minimumSizeHint() const override { return {220, 80}; }
 
  signals:
   void dragged(double low_deg, double high_deg);

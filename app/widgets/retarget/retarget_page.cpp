@@ -56,6 +56,7 @@ QToolButton* makeMenuButton(const QString& object_name, const QString& text, con
   button->setAccessibleName(tip);
   button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   button->setProperty("words", true);
+  button->setProperty("menu", true);
   button->setPopupMode(QToolButton::InstantPopup);
   button->setMenu(menu);
   menu->setObjectName(object_name + "_menu");
@@ -82,18 +83,24 @@ RetargetPage::RetargetPage(Workspace& workspace, BodySolver::Loader loader, QWid
   left_->addTab(shape_, tr("&Shape"));
   left_->addTab(factors_, tr("Mass, &force"));
   left_->addTab(rom_panel_, tr("&Ranges"));
-  left_->setMinimumWidth(286);
   right_ = new QStackedWidget;
   right_->addWidget(makeBodyView());
   right_->addWidget(rom_view_);
   auto* splitter = new QSplitter;
   splitter->setChildrenCollapsible(false);
   splitter->setHandleWidth(12);
-  splitter->addWidget(left_);
+  auto* left_column = new QWidget;
+  auto* left_rows = new QVBoxLayout{left_column};
+  left_rows->setContentsMargins(0, 0, 0, 0);
+  left_rows->setSpacing(8);
+  left_rows->addWidget(left_, 1);
+  left_rows->addWidget(makeState());
+  left_column->setMinimumWidth(306);
+  splitter->addWidget(left_column);
   splitter->addWidget(right_);
   splitter->setStretchFactor(0, 0);
   splitter->setStretchFactor(1, 1);
-  splitter->setSizes({290, 690});
+  splitter->setSizes({306, 680});
   characters_ = new CharactersView;
   all_ = new QStackedWidget;
   all_->addWidget(splitter);
@@ -135,7 +142,7 @@ RetargetPage::RetargetPage(Workspace& workspace, BodySolver::Loader loader, QWid
   connect(&solver_, &BodySolver::stateChanged, this, &RetargetPage::refreshState);
   connect(&solver_.runner(), &JobRunner::progressed, this, [this](double fraction, const QString& stage) {
     progress_->setValue(int(1000 * fraction));
-    if (solver_.isSolving()) state_->setText(tr("Bones with naive muscles; retargeting: %1").arg(stage));
+    if (solver_.isSolving()) state_->setText(tr("Naive muscles; retargeting: %1").arg(stage));
   });
   connect(inspector_, &ChangeInspector::chosen, this, &RetargetPage::setMuscle);
   connect(rom_view_, &RomEditView::muscleChosen, this, &RetargetPage::setMuscle);
@@ -249,16 +256,6 @@ QWidget* RetargetPage::makeView() {
   colouring_->setToolTip(
       tr("Change of function: violet none, yellow large (energy of routing, logarithmic from 0.001 to 10)"));
   colouring_->addItems({tr("Colour: group"), tr("Colour: change, naive"), tr("Colour: change, retargeted")});
-  state_ = new ElidedLabel{"small"};
-  state_->setObjectName("retarget_state");
-  progress_ = new QProgressBar;
-  progress_->setObjectName("retarget_progress");
-  progress_->setAccessibleName(tr("Progress of retargeting"));
-  progress_->setRange(0, 1000);
-  progress_->setTextVisible(false);
-  progress_->setFixedWidth(90);
-  cancel_ = makeButton("retarget_cancel", tr("Cancel"), {}, tr("Stop retargeting; the naive muscles stay"));
-  cancel_->setStyleSheet("min-height: 20px; padding: 0 8px;");
   auto* strip = new QWidget;
   strip->setProperty("role", "view_strip");
   strip->setAttribute(Qt::WA_StyledBackground);
@@ -269,16 +266,10 @@ QWidget* RetargetPage::makeView() {
   choices->setSpacing(6);
   choices->addWidget(shown_, 2);
   choices->addWidget(colouring_, 3);
-  auto* line = new QHBoxLayout;
-  line->setSpacing(8);
-  line->addWidget(state_, 1);
-  line->addWidget(progress_);
-  line->addWidget(cancel_);
   auto* rows = new QVBoxLayout{strip};
   rows->setContentsMargins(10, 6, 10, 6);
   rows->setSpacing(4);
   rows->addLayout(choices);
-  rows->addLayout(line);
   auto* box = new QWidget;
   auto* column = new QVBoxLayout{box};
   column->setContentsMargins(0, 0, 0, 0);
@@ -288,6 +279,34 @@ QWidget* RetargetPage::makeView() {
   box->setMinimumWidth(300);
   connect(shown_, &QComboBox::currentIndexChanged, this, &RetargetPage::refreshSoon);
   connect(colouring_, &QComboBox::currentIndexChanged, this, &RetargetPage::refreshSoon);
+  return box;
+}
+
+QWidget* RetargetPage::makeState() {
+  state_ = new ElidedLabel{""};
+  state_->setObjectName("retarget_state");
+  progress_ = new QProgressBar;
+  progress_->setObjectName("retarget_progress");
+  progress_->setAccessibleName(tr("Progress of retargeting"));
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  cancel_ = makeButton("retarget_cancel", tr("Cancel"), {}, tr("Stop retargeting; the naive muscles stay (Esc)"));
+  for (QWidget* w : {static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel_)}) {
+    QSizePolicy policy = w->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    w->setSizePolicy(policy);
+  }
+  auto* words = new QVBoxLayout;
+  words->setSpacing(4);
+  words->addWidget(state_);
+  words->addWidget(progress_);
+  auto* box = new QFrame;
+  box->setProperty("role", "card");
+  auto* row = new QHBoxLayout{box};
+  row->setContentsMargins(12, 6, 8, 6);
+  row->setSpacing(8);
+  row->addLayout(words, 1);
+  row->addWidget(cancel_);
   connect(cancel_, &QPushButton::clicked, &solver_, &BodySolver::cancel);
   return box;
 }
@@ -367,14 +386,14 @@ void RetargetPage::refreshState() {
     state_->setText(tr("Not retargeted: %1").arg(solver_.problem()));
   else if (solver_.isCurrent())
     state_->setText(solver_.body()->rom_problem.isEmpty()
-                        ? tr("Retargeted muscles, in %1 s").arg(figure(solver_.body()->solve_s, 2))
+                        ? tr("Retargeted muscles, solved in %1 s").arg(figure(solver_.body()->solve_s, 2))
                         : tr("Retargeted; ranges not edited: %1").arg(solver_.body()->rom_problem));
   else if (solving)
-    state_->setText(tr("Bones with naive muscles; retargeting …"));
+    state_->setText(tr("Naive muscles; retargeting …"));
   else if (solver_.wasCancelled())
-    state_->setText(tr("Cancelled: naive muscles, the next change retargets"));
+    state_->setText(tr("Cancelled: naive muscles are shown"));
   else
-    state_->setText(tr("Bones with naive muscles"));
+    state_->setText(tr("Naive muscles"));
   if (solver_.body()) inspector_->setBody(solver_.body(), solver_.isCurrent());
 }
 

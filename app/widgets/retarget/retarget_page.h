@@ -50,6 +50,7 @@ class RetargetPage : public QWidget {
   QWidget* makeHead();
   QWidget* makeBodyView();
   QWidget* makeView();
+  QWidget* makeState();
   void designChanged();
   void refreshSoon();
   void refresh();

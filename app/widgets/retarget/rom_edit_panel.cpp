@@ -34,6 +34,13 @@ bool knowsTilt(const Skeleton& skeleton, int joint, const std::string& towards) 
   }
 }
 
+/// As tall as the field beside it, so that both stand on one line.
+QLabel* rowLabel(const QString& text) {
+  auto* label = makeLabel(text, "");
+  label->setMinimumHeight(30);
+  return label;
+}
+
 }  // namespace
 
 RomEditPanel::RomEditPanel(DesignDocument& document, QWidget* parent) : QWidget{parent}, document_{document} {
@@ -67,17 +74,17 @@ RomEditPanel::RomEditPanel(DesignDocument& document, QWidget* parent) : QWidget{
   auto* ball = new QFormLayout{ball_box_};
   ball->setContentsMargins(0, 0, 0, 0);
   ball->setVerticalSpacing(5);
-  ball->addRow(tr("Cone, width"), cone_);
-  ball->addRow(tr("Cone, tilt"), tilt_);
-  ball->addRow(tr("   towards"), towards_);
-  ball->addRow(tr("Twist, width"), twist_);
-  ball->addRow(tr("Twist, shift"), twist_shift_);
+  ball->addRow(rowLabel(tr("Cone, width")), cone_);
+  ball->addRow(rowLabel(tr("Cone, tilt")), tilt_);
+  ball->addRow(rowLabel(tr("   towards")), towards_);
+  ball->addRow(rowLabel(tr("Twist, width")), twist_);
+  ball->addRow(rowLabel(tr("Twist, shift")), twist_shift_);
   hinge_box_ = new QWidget;
   auto* hinge = new QFormLayout{hinge_box_};
   hinge->setContentsMargins(0, 0, 0, 0);
   hinge->setVerticalSpacing(5);
-  hinge->addRow(tr("Range, width"), range_);
-  hinge->addRow(tr("Range, shift"), shift_);
+  hinge->addRow(rowLabel(tr("Range, width")), range_);
+  hinge->addRow(rowLabel(tr("Range, shift")), shift_);
   axis_ = makeLabel({}, "small");
   axis_->setObjectName("rom_edit_hint");
   axis_->setWordWrap(true);
@@ -98,6 +105,8 @@ RomEditPanel::RomEditPanel(DesignDocument& document, QWidget* parent) : QWidget{
   edits_->setAccessibleName(tr("Edits"));
   edits_->setToolTip(tr("All edits, in the order in which they apply; click one to see its joint"));
   edits_->setWordWrap(true);
+  edits_->setResizeMode(QListView::Adjust);
+  edits_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* column = new QVBoxLayout{this};
   column->setContentsMargins(12, 10, 12, 10);
   column->setSpacing(7);

@@ -49,6 +49,7 @@ RomEditView::RomEditView(DesignDocument& document, RomEditPanel& panel, QWidget*
   column->addWidget(kinds_, 1);
   column->addWidget(error_);
   column->addWidget(makeChanges());
+  rows_ = column;
 
   soon_ = new QTimer{this};
   soon_->setSingleShot(true);
@@ -173,7 +174,7 @@ QWidget* RomEditView::makeChanges() {
   changes_->horizontalHeader()->resizeSection(2, 140);
   changes_->horizontalHeader()->resizeSection(3, 140);
   changes_->verticalHeader()->setDefaultSectionSize(24);
-  changes_->setFixedHeight(148);
+  changes_->setMinimumHeight(126);
   auto* column = new QVBoxLayout{box};
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
@@ -190,8 +191,9 @@ void RomEditView::setBody(std::shared_ptr<const SolvedBody> body, bool is_curren
   const bool other = body != body_;
   current_ = is_current;
   body_ = std::move(body);
-  if (other) showChanges();
-  if (other) askSoon();
+  if (!other) return;
+  showChanges();
+  askSoon();
 }
 
 void RomEditView::showEvent(QShowEvent* event) {
@@ -205,7 +207,11 @@ void RomEditView::askSoon() {
 
 void RomEditView::ask() {
   if (!reference_ || !body_ || !isVisible() || panel_.joint().empty()) return;
-  kinds_->setCurrentIndex(panel_.isBall() ? 0 : 1);
+  const bool ball = panel_.isBall();
+  kinds_->setCurrentIndex(ball ? 0 : 1);
+  rows_->setStretch(1, ball ? 1 : 0);  // of a hinge the muscles get the room that spheres need
+  rows_->setStretch(3, ball ? 0 : 1);
+  changes_->setMaximumHeight(ball ? 126 : QWIDGETSIZE_MAX);
   title_->setText(tr("Range of motion: %1").arg(readableName(panel_.joint())));
   study_.ask(reference_, body_, panel_.joint(), document_.current().rom);
 }
@@ -289,9 +295,21 @@ void RomEditView::showPicture() {
     showCone();
     showTwist();
   } else {
-    error_->clear();
+    error_->setText(solvedError());
     showHinge();
   }
+}
+
+QString RomEditView::solvedError() const {
+  if (!body_ || !body_->rom || !current_) return {};
+  QStringList parts;
+  for (const RomEditCells& c : body_->rom->cells)
+    if (c.joint == panel_.joint())
+      parts << tr("%1 of %2 cells differ in the posture '%3' (muscles and stops)")
+                   .arg(c.differing_in_stops)
+                   .arg(c.cells)
+                   .arg(readableName(c.held).toLower());
+  return parts.join("; ");
 }
 
 void RomEditView::showChanges() {

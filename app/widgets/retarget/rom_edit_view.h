@@ -8,6 +8,7 @@ class QLabel;
 class QStackedWidget;
 class QTableWidget;
 class QTimer;
+class QVBoxLayout;
 
 namespace sinew {
 
@@ -46,6 +47,7 @@ class RomEditView : public QWidget {
   void showHinge();
   void showChanges();
   void change(bool keep, const QString& what, const std::function<void(RomEdit&)>& change);
+  QString solvedError() const;  ///< of the joint, as the solver counts it
   RomEdit currentEdit() const;
 
   DesignDocument& document_;
@@ -54,6 +56,7 @@ class RomEditView : public QWidget {
   std::shared_ptr<const SolvedBody> body_;
   bool current_ = false;
   RomEditStudy study_;
+  QVBoxLayout* rows_;
   QStackedWidget* kinds_;
   EditSphere* wanted_;
   RomSphereView *before_, *reached_;
@@ -62,7 +65,6 @@ class RomEditView : public QWidget {
   QTableWidget* changes_;
   ColourBar* bar_;
   QTimer* soon_;
-  std::string drawn_;                     ///< joint of the spheres
   std::function<void(RomEdit&)> pulled_;  ///< the drag that is going on
 };
 
