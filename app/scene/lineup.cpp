@@ -61,7 +61,8 @@ Lineup renderLineup(const std::vector<LineupBody>& bodies, const LineupPicture& 
   std::vector<int> widths_px;
   int width_px = 0;
   for (const Extent& e : extents) {
-    widths_px.push_back(std::max(8, int(std::lround((e.right - e.left + picture.gap_m) / lineup.pixel_m))));
+    widths_px.push_back(std::max(int(picture.least_share * picture.height_px),
+                                 int(std::lround((e.right - e.left + picture.gap_m) / lineup.pixel_m))));
     lineup.centre_px.push_back(width_px + widths_px.back() / 2);
     width_px += widths_px.back();
   }

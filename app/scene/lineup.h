@@ -12,7 +12,8 @@ struct LineupPicture {
   StandardView view = StandardView::Front;
   Backdrop backdrop = Backdrop::White;
   bool muscles = true;
-  double gap_m = 0.12;  ///< between neighbours
+  double gap_m = 0.12;       ///< between neighbours
+  double least_share = 0.2;  ///< width of a body's place over the height of the picture: names need room
   OffscreenOptions quality;
 };
 struct Lineup {

@@ -102,7 +102,7 @@ void CurvePlot::paintEvent(QPaintEvent*) {
                      colour::kSuccessTint);
   }
   const double step_x = roundStep(x.high - x.low, std::max(2, int(area.width() / 48)));
-  const double step_y = roundStep(y.high - y.low, std::max(2, int(area.height() / 28)));
+  const double step_y = roundStep(y.high - y.low, std::max(2, int(area.height() / 22)));
   for (double t = std::ceil(x.low / step_x) * step_x; t <= x.high + 1e-9; t += step_x) {
     painter.setPen(QPen{colour::kLine, 1});
     painter.drawLine(QPointF{toX(t), area.top()}, QPointF{toX(t), area.bottom()});

@@ -29,7 +29,7 @@ class WordFilter : public QSortFilterProxyModel {
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override {
-    const QString name = sourceModel()->index(row, 0, parent).data().toString();
+    const QString name = sourceModel()->index(row, 0, parent).data(Qt::UserRole).toString();
     return std::ranges::all_of(words_, [&](const QString& w) { return name.contains(w, Qt::CaseInsensitive); });
   }
 
@@ -76,7 +76,7 @@ ChangeInspector::ChangeInspector(QWidget* parent) : QWidget{parent} {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Fixed);
   header->setSectionResizeMode(0, QHeaderView::Stretch);
-  constexpr int kWidths[] = {0, 72, 84, 76, 62, 60, 74, 70};
+  constexpr int kWidths[] = {0, 66, 92, 76, 60, 58, 82, 72};
   for (int c = 1; c < ChangeTable::kColumns; ++c) header->resizeSection(c, kWidths[c]);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(0, 0, 0, 0);
@@ -122,7 +122,7 @@ void ChangeInspector::summarise(const SolvedBody* body) {
     reversed_naive += c.reversals_naive > 0;
     reversed += c.reversals > 0;
   }
-  summary_->setText(tr("Median change of function %1 naive, %2 retargeted. Muscles reversed somewhere: %3, %4.")
+  summary_->setText(tr("Median change %1 naive, %2 retargeted · muscles reversed somewhere %3, %4")
                         .arg(energyText(median(naive)), energyText(median(retargeted)))
                         .arg(reversed_naive)
                         .arg(reversed));

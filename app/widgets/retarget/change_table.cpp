@@ -89,7 +89,7 @@ QString ChangeTable::wordsOf(const MuscleChange& c, int column) const {
       return c.peak_motion.empty() ? QStringLiteral("–")
                                    : figure(c.peak_before_deg, 0) + arrow + figure(c.peak_after_deg, 0);
     default:
-      return readableName(unitOf(c.unit));
+      return readableName(unitOf(c.unit)).replace(tr(", right"), tr(", R")).replace(tr(", left"), tr(", L"));
   }
 }
 

@@ -22,6 +22,7 @@
 #include "app/model/workspace.h"
 #include "app/scene/lineup.h"
 #include "app/widgets/controls.h"
+#include "app/widgets/explorer/colour_bar.h"
 #include "app/widgets/model_view.h"
 #include "app/widgets/retarget/change_inspector.h"
 #include "app/widgets/retarget/characters_view.h"
@@ -38,6 +39,7 @@ namespace {
 constexpr int kFrame_ms = 15;    // a slider sends more changes than a screen can show
 constexpr int kSettle_ms = 180;  // typing and keys: the muscles follow when the hand rests
 constexpr int kShape = 0, kFactors = 1, kRanges = 2;
+constexpr double kLeastChange = -2, kMostChange = 3;  // ends of the colours: energy's decimal logarithm
 enum Shown { kNewest, kNaive, kReference };
 
 double massOf_kg(const Model& model) {
@@ -253,8 +255,7 @@ QWidget* RetargetPage::makeView() {
   colouring_ = new QComboBox;
   colouring_->setObjectName("retarget_colouring");
   colouring_->setAccessibleName(tr("Muscle colours"));
-  colouring_->setToolTip(
-      tr("Change of function: violet none, yellow large (energy of routing, logarithmic from 0.001 to 10)"));
+  colouring_->setToolTip(tr("Groups of muscles, or how far function changed (energy of routing)"));
   colouring_->addItems({tr("Colour: group"), tr("Colour: change, naive"), tr("Colour: change, retargeted")});
   auto* strip = new QWidget;
   strip->setProperty("role", "view_strip");
@@ -270,6 +271,11 @@ QWidget* RetargetPage::makeView() {
   rows->setContentsMargins(10, 6, 10, 6);
   rows->setSpacing(4);
   rows->addLayout(choices);
+  bar_ = new ColourBar{ColourBar::Ground::Dark};
+  bar_->setScale(tr("Change of function, energy, power of ten"), kLeastChange, kMostChange, 0, true, true,
+                 sequentialColour);
+  bar_->hide();
+  rows->addWidget(bar_);
   auto* box = new QWidget;
   auto* column = new QVBoxLayout{box};
   column->setContentsMargins(0, 0, 0, 0);
@@ -291,17 +297,16 @@ QWidget* RetargetPage::makeState() {
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
   cancel_ = makeButton("retarget_cancel", tr("Cancel"), {}, tr("Stop retargeting; the naive muscles stay (Esc)"));
-  for (QWidget* w : {static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel_)}) {
-    QSizePolicy policy = w->sizePolicy();
-    policy.setRetainSizeWhenHidden(true);
-    w->setSizePolicy(policy);
-  }
+  QSizePolicy policy = progress_->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  progress_->setSizePolicy(policy);
   auto* words = new QVBoxLayout;
   words->setSpacing(4);
   words->addWidget(state_);
   words->addWidget(progress_);
   auto* box = new QFrame;
   box->setProperty("role", "card");
+  box->setFixedHeight(48);  // with the button and without
   auto* row = new QHBoxLayout{box};
   row->setContentsMargins(12, 6, 8, 6);
   row->setSpacing(8);
@@ -351,12 +356,13 @@ void RetargetPage::refresh() {
   std::optional<MuscleScalars> scalars;
   if (const auto& body = solver_.body(); body && colouring_->currentIndex() > 0) {
     scalars.emplace();
-    scalars->low = -3;  // of the energy's decimal logarithm
-    scalars->high = 1;
+    scalars->low = kLeastChange;
+    scalars->high = kMostChange;
     for (const MuscleChange& c : body->changes)
       scalars->by_unit[model->musculature.units[std::size_t(c.unit)].name] =
-          std::log10(std::max(1e-3, colouring_->currentIndex() == 1 ? c.energy_naive : c.energy));
+          std::log10(std::max(1e-9, colouring_->currentIndex() == 1 ? c.energy_naive : c.energy));
   }
+  bar_->setVisible(scalars.has_value());
   view_->show(posture, muscle_, scalars);
   if (fit_wanted_ && !document_.isPreview()) view_->fit();
   if (solver_.isCurrent()) fit_wanted_ = false;

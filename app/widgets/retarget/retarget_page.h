@@ -18,6 +18,7 @@ namespace sinew {
 
 class ChangeInspector;
 class CharactersView;
+class ColourBar;
 class FactorPanel;
 class FamilyCurves;
 class ModelView;
@@ -73,6 +74,7 @@ class RetargetPage : public QWidget {
   QLabel *body_name_, *state_;
   QToolButton* characters_button_;
   QComboBox *shown_, *colouring_;
+  ColourBar* bar_;
   QProgressBar* progress_;
   QPushButton* cancel_;
   ShapePanel* shape_;

@@ -29,6 +29,14 @@ RangeBar::Range inDegrees(double low_rad, double high_rad) {
   return {low_rad / kDegree, high_rad / kDegree};
 }
 
+/// "zero" -> "as standing", "hip_flexion_r=90" -> "with hip flexion 90°".
+QString heldInWords(const std::string& held) {
+  if (held == "zero") return QObject::tr("as standing");
+  QString words = QString::fromStdString(held);
+  words.replace("_r=", " ").replace("_l=", " ").replace('=', ' ').replace('_', ' ');
+  return QObject::tr("with %1°").arg(words);
+}
+
 }  // namespace
 
 RomEditView::RomEditView(DesignDocument& document, RomEditPanel& panel, QWidget* parent)
@@ -212,6 +220,7 @@ void RomEditView::ask() {
   rows_->setStretch(1, ball ? 1 : 0);  // of a hinge the muscles get the room that spheres need
   rows_->setStretch(3, ball ? 0 : 1);
   changes_->setMaximumHeight(ball ? 126 : QWIDGETSIZE_MAX);
+  kinds_->setMaximumHeight(ball ? QWIDGETSIZE_MAX : 224);
   title_->setText(tr("Range of motion: %1").arg(readableName(panel_.joint())));
   study_.ask(reference_, body_, panel_.joint(), document_.current().rom);
 }
@@ -305,11 +314,8 @@ QString RomEditView::solvedError() const {
   QStringList parts;
   for (const RomEditCells& c : body_->rom->cells)
     if (c.joint == panel_.joint())
-      parts << tr("%1 of %2 cells differ in the posture '%3' (muscles and stops)")
-                   .arg(c.differing_in_stops)
-                   .arg(c.cells)
-                   .arg(readableName(c.held).toLower());
-  return parts.join("; ");
+      parts << tr("%1 of %2 degrees differ %3").arg(c.differing_in_stops).arg(c.cells).arg(heldInWords(c.held));
+  return parts.isEmpty() ? QString{} : tr("Wanted against reached, muscles and stops: %1.").arg(parts.join(", "));
 }
 
 void RomEditView::showChanges() {
