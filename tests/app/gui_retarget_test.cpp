@@ -297,6 +297,38 @@ TEST_F(RetargetTour, TheCharactersStandSideBySide) {
   EXPECT_EQ(QImage{QString::fromStdString((folder_ / "characters.png").string())}.size(), view.picture().size());
 }
 
+TEST_F(RetargetTour, IsReachedFromEverywhereAndLeftAgain) {
+  click("retarget_close");
+  EXPECT_TRUE(find<QWidget>("welcome_page").isVisible());
+  letEventsRun(100);
+  screenshot("0-welcome");
+  QTest::keyClick(&window_, Qt::Key_T, Qt::ControlModifier);
+  EXPECT_TRUE(page().isVisible());
+  QTest::keyClick(&window_, Qt::Key_M, Qt::ControlModifier);
+  EXPECT_FALSE(page().isVisible());
+  click("open_retargeting");
+  EXPECT_TRUE(page().isVisible());
+  // Undo belongs to what is looked at.
+  trigger("preset_child");
+  EXPECT_TRUE(find<QAbstractButton>("undo_button").isEnabled());
+  click("retarget_close");
+  EXPECT_FALSE(find<QAbstractButton>("undo_button").isEnabled());
+  click("open_retargeting");
+  settle();
+}
+
+TEST_F(RetargetTour, ACancelledSolutionLeavesTheNaiveMuscles) {
+  trigger("preset_alien");
+  ASSERT_TRUE(waitUntil([&] { return page().solver().isSolving(); }, kLimit_ms));
+  click("retarget_cancel");
+  ASSERT_TRUE(waitUntil([&] { return !page().solver().isSolving(); }, kLimit_ms));
+  EXPECT_FALSE(page().solver().isCurrent());
+  EXPECT_THAT(find<QLabel>("retarget_state").text().toStdString(), HasSubstr("Cancelled"));
+  EXPECT_EQ(page().solver().naive()->shape, design().body.shape);
+  find<QDoubleSpinBox>("value_neck_elongation").setValue(1.9);
+  settle();
+}
+
 /// Not limits: figures to read.
 TEST_F(RetargetTour, PrintsTheTimesOfADragAndOfASolution) {
   auto& canvas = find<VtkView>("retarget_view_canvas");

@@ -39,7 +39,7 @@ namespace {
 constexpr int kFrame_ms = 15;    // a slider sends more changes than a screen can show
 constexpr int kSettle_ms = 180;  // typing and keys: the muscles follow when the hand rests
 constexpr int kShape = 0, kFactors = 1, kRanges = 2;
-constexpr double kLeastChange = -2, kMostChange = 3;  // ends of the colours: energy's decimal logarithm
+constexpr double kLeastChange = -2, kMostChange = 2;  // ends of the colours: energy's decimal logarithm
 enum Shown { kNewest, kNaive, kReference };
 
 double massOf_kg(const Model& model) {
