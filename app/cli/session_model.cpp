@@ -16,6 +16,16 @@ const Model& Session::reference() {
   return *reference_;
 }
 
+std::shared_ptr<const RetargetReference> Session::retargeting() {
+  if (!retargeting_) {
+    const auto start = std::chrono::steady_clock::now();
+    retargeting_ = loadRetargetReference(resourceDir());
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    spdlog::debug("reference of retargeting: {:.3f} s", seconds.count());
+  }
+  return retargeting_;
+}
+
 Model Session::model(const std::string& name_or_file) {
   if (const auto preset = presetOf(name_or_file))
     return name_or_file == reference().name ? reference() : loadReferenceModel(resourceDir(), *preset);
