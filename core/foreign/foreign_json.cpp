@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "core/file.h"
 #include "core/io/osim_reader.h"
@@ -10,9 +11,6 @@
 namespace sinew {
 namespace {
 
-Json toJson(const Eigen::Matrix3d& m) {
-  return {vectorToJson(m.row(0)), vectorToJson(m.row(1)), vectorToJson(m.row(2))};
-}
 Eigen::Matrix3d matrixFromJson(const JsonReader& json) {
   const auto rows = json.items(3);
   Eigen::Matrix3d m;
@@ -20,9 +18,6 @@ Eigen::Matrix3d matrixFromJson(const JsonReader& json) {
   return m;
 }
 
-Json toJson(const RigidTransform& X) {
-  return {{"position_m", vectorToJson(X.translation())}, {"rotation", toJson(X.linear())}};
-}
 RigidTransform poseFromJson(const JsonReader& json) {
   json.allowOnly({"position_m", "rotation"});
   RigidTransform X = RigidTransform::Identity();
@@ -34,24 +29,6 @@ RigidTransform poseFromJson(const JsonReader& json) {
   return X;
 }
 
-const char* nameOf(ScalarFunction::Kind kind) {
-  switch (kind) {
-    case ScalarFunction::Kind::Constant:
-      return "constant";
-    case ScalarFunction::Kind::Polynomial:
-      return "polynomial";
-    case ScalarFunction::Kind::PiecewiseLinear:
-      return "piecewise_linear";
-    case ScalarFunction::Kind::SimmSpline:
-      return "simm_spline";
-  }
-  return "";
-}
-
-Json toJson(const ScalarFunction& f) {
-  if (f.x().empty()) return {{"kind", nameOf(f.kind())}, {"coefficients", f.coefficients()}};
-  return {{"kind", nameOf(f.kind())}, {"x", f.x()}, {"y", f.y()}};
-}
 ScalarFunction functionFromJson(const JsonReader& json) {
   const std::string kind = json["kind"].oneOf({"constant", "polynomial", "piecewise_linear", "simm_spline"});
   if (kind == "constant" || kind == "polynomial") {
@@ -67,13 +44,10 @@ ScalarFunction functionFromJson(const JsonReader& json) {
   return kind == "simm_spline" ? ScalarFunction::simmSpline(x, y) : ScalarFunction::piecewiseLinear(x, y);
 }
 
-/// Writes and reads the names of bodies and coordinates for their indices.
+/// Indices of bodies and coordinates by name.
 class Names {
  public:
   explicit Names(const ForeignModel& model) : model_{model} {}
-
-  std::string body(int i) const { return i < 0 ? "ground" : model_.bodies[static_cast<std::size_t>(i)].name; }
-  std::string coordinate(int i) const { return model_.coordinates[static_cast<std::size_t>(i)].name; }
 
   int body(const JsonReader& json) const {
     if (json.text() == "ground") return -1;
@@ -85,12 +59,6 @@ class Names {
     return namedIndex(json, [&](const std::string& name) { return model_.coordinateIndex(name); });
   }
 
-  Json function(const CoordinateFunction& f) const {
-    Json terms = Json::array();
-    for (const auto& t : f.terms)
-      terms.push_back({{"coordinate", coordinate(t.coordinate)}, {"function", toJson(t.function)}});
-    return {{"constant", f.constant}, {"terms", terms}};
-  }
   CoordinateFunction function(const JsonReader& json) const {
     CoordinateFunction f{json["constant"].number(), {}};
     for (const auto& t : json["terms"].items())
@@ -117,8 +85,7 @@ class Reader {
     for (const auto& b : json_["bodies"].items()) body(b);
     for (const auto& c : json_["coordinates"].items()) coordinate(c);
     for (const auto& j : json_["joints"].items()) joint(j);
-    for (const auto& c : json_["couplings"].items())
-      model_.couplings.push_back({c["name"].text(), names_.coordinate(c["dependent"]), names_.function(c["value"])});
+    for (const auto& c : json_["couplings"].items()) coupling(c);
     for (const auto& w : json_["wrap_objects"].items()) wrapObject(w);
     for (const auto& m : json_["muscles"].items()) muscle(m);
     model_.warnings = warningsFromJson(json_["warnings"]);
@@ -126,9 +93,15 @@ class Reader {
   }
 
  private:
+  template <class List, class Name>
+  static std::string ownName(const JsonReader& json, const List& list, Name name) {
+    if (std::ranges::find(list, json.text(), name) != list.end()) json.fail("a name that nothing before has");
+    return json.text();
+  }
+
   void body(const JsonReader& json) {
     Segment b;
-    b.name = json["name"].text();
+    b.name = ownName(json["name"], model_.bodies, &Segment::name);
     b.mass_kg = json["mass_kg"].number();
     b.p_BCom = vectorFromJson(json["centre_of_mass_m"]);
     b.inertia_B_kgm2 = matrixFromJson(json["inertia_kgm2"]);
@@ -137,8 +110,9 @@ class Reader {
 
   void coordinate(const JsonReader& json) {
     const auto range = json["range"].numbers(2);
-    model_.coordinates.push_back({json["name"].text(), json["translational"].boolean(), json["default"].number(),
-                                  range[0], range[1], json["clamped"].boolean(), json["locked"].boolean()});
+    model_.coordinates.push_back({ownName(json["name"], model_.coordinates, &ForeignCoordinate::name),
+                                  json["translational"].boolean(), json["default"].number(), range[0], range[1],
+                                  json["clamped"].boolean(), json["locked"].boolean()});
   }
 
   std::array<ForeignAxis, 3> axes(const JsonReader& json) const {
@@ -164,8 +138,24 @@ class Reader {
     for (const auto& c : json["coordinates"].items()) j.coordinates.push_back(names_.coordinate(c));
     const int outer = j.towards_parent ? j.parent : j.child, inner = j.towards_parent ? j.child : j.parent;
     if (outer < 0) json.fail("a joint that moves a body", "one that moves the ground");
+    if (inner >= 0 && !placed_.contains(inner))
+      json.fail("a joint after the one that places what it hangs on", j.name);
+    if (!placed_.insert(outer).second) json.fail("one joint that places a body", "another one, '" + j.name + "'");
     model_.bodies[static_cast<std::size_t>(outer)].parent = inner;
     model_.joints.push_back(std::move(j));
+  }
+
+  /// What it depends on is computed before it.
+  void coupling(const JsonReader& json) {
+    ForeignCoupling c{json["name"].text(), names_.coordinate(json["dependent"]), names_.function(json["value"])};
+    for (const auto& earlier : model_.couplings)
+      if (earlier.dependent == c.dependent ||
+          std::ranges::find(earlier.value.terms, c.dependent, &CoordinateFunction::Term::coordinate) !=
+              earlier.value.terms.end())
+        json["dependent"].fail("a coordinate that no coupling before uses");
+    if (std::ranges::find(c.value.terms, c.dependent, &CoordinateFunction::Term::coordinate) != c.value.terms.end())
+      json["value"].fail("a function of other coordinates");
+    model_.couplings.push_back(std::move(c));
   }
 
   void wrapObject(const JsonReader& json) {
@@ -184,7 +174,7 @@ class Reader {
 
   void muscle(const JsonReader& json) {
     MusculotendonUnit unit;
-    unit.name = json["name"].text();
+    unit.name = ownName(json["name"], model_.musculature.units, &MusculotendonUnit::name);
     unit.source = model_.source;
     unit.max_isometric_force_N = json["max_isometric_force_N"].positive();
     unit.optimal_fiber_length_m = json["optimal_fiber_length_m"].positive();
@@ -228,100 +218,10 @@ class Reader {
   const JsonReader& json_;
   ForeignModel model_;
   Names names_;
+  std::set<int> placed_;
 };
 
-Json axesJson(const Names& names, const std::array<ForeignAxis, 3>& axes) {
-  Json list = Json::array();
-  for (const auto& a : axes) list.push_back({{"axis", vectorToJson(a.axis)}, {"amount", names.function(a.amount)}});
-  return list;
-}
-
-Json jointJson(const Names& names, const ForeignJoint& j) {
-  Json coordinates = Json::array();
-  for (const int c : j.coordinates) coordinates.push_back(names.coordinate(c));
-  return {{"name", j.name},
-          {"kind", j.kind},
-          {"parent", names.body(j.parent)},
-          {"child", names.body(j.child)},
-          {"frame_on_parent", toJson(j.X_PF)},
-          {"frame_on_child", toJson(j.X_BM)},
-          {"turns", axesJson(names, j.turns)},
-          {"shifts", axesJson(names, j.shifts)},
-          {"ellipsoid_radii_m", vectorToJson(j.ellipsoid_radii_m)},
-          {"towards_parent", j.towards_parent},
-          {"coordinates", coordinates}};
-}
-
-Json pointJson(const Names& names, const ForeignPathPoint& p) {
-  Json json{{"name", p.name}, {"body", names.body(p.body)}};
-  if (!p.X_BF.isApprox(RigidTransform::Identity(), 0)) json["frame"] = toJson(p.X_BF);
-  if (p.moves())
-    json["moving_location_m"] = {names.function(p.p_F[0]), names.function(p.p_F[1]), names.function(p.p_F[2])};
-  else
-    json["location_m"] = {p.p_F[0].constant, p.p_F[1].constant, p.p_F[2].constant};
-  if (const auto& c = p.condition)
-    json["while"] = {{"coordinate", names.coordinate(c->coordinate)}, {"range", {c->min, c->max}}};
-  return json;
-}
-
-Json muscleJson(const Names& names, const ForeignModel& model, std::size_t i) {
-  const MusculotendonUnit& unit = model.musculature.units[i];
-  Json points = Json::array(), wraps = Json::array();
-  for (const auto& p : model.paths[i].points) points.push_back(pointJson(names, p));
-  for (const auto& w : model.paths[i].wraps)
-    wraps.push_back({{"object", model.wrap_objects[static_cast<std::size_t>(w.object)].name},
-                     {"first_point", w.first_point},
-                     {"last_point", w.last_point}});
-  return {{"name", unit.name},
-          {"kind", model.muscle_kinds[i]},
-          {"max_isometric_force_N", unit.max_isometric_force_N},
-          {"optimal_fiber_length_m", unit.optimal_fiber_length_m},
-          {"tendon_slack_length_m", unit.tendon_slack_length_m},
-          {"pennation_angle_at_optimal_rad", unit.pennation_angle_at_optimal_rad},
-          {"points", points},
-          {"wraps", wraps}};
-}
-
 }  // namespace
-
-Json foreignModelToJson(const ForeignModel& model) {
-  const Names names{model};
-  Json json{{"format", "sinew.foreign_model"},
-            {"version", 1},
-            {"name", model.name},
-            {"source", model.source},
-            {"credits", model.credits},
-            {"gravity_m_s2", vectorToJson(model.gravity_W_m_s2)}};
-  for (const char* list : {"bodies", "coordinates", "joints", "couplings", "wrap_objects", "muscles"})
-    json[list] = Json::array();
-  for (const auto& b : model.bodies)
-    json["bodies"].push_back({{"name", b.name},
-                              {"mass_kg", b.mass_kg},
-                              {"centre_of_mass_m", vectorToJson(b.p_BCom)},
-                              {"inertia_kgm2", toJson(b.inertia_B_kgm2)}});
-  for (const auto& c : model.coordinates)
-    json["coordinates"].push_back({{"name", c.name},
-                                   {"translational", c.translational},
-                                   {"default", c.default_value},
-                                   {"range", {c.min, c.max}},
-                                   {"clamped", c.clamped},
-                                   {"locked", c.locked}});
-  for (const auto& j : model.joints) json["joints"].push_back(jointJson(names, j));
-  for (const auto& c : model.couplings)
-    json["couplings"].push_back(
-        {{"name", c.name}, {"dependent", names.coordinate(c.dependent)}, {"value", names.function(c.value)}});
-  for (const auto& w : model.wrap_objects)
-    json["wrap_objects"].push_back({{"name", w.name},
-                                    {"body", names.body(w.body)},
-                                    {"pose", toJson(w.X_BO)},
-                                    {"shape", w.shape == WrapShape::Cylinder ? "cylinder" : "ellipsoid"},
-                                    {"radii_m", vectorToJson(w.radii_m)},
-                                    {"side_axis", w.side_axis},
-                                    {"side_sign", w.side_sign}});
-  for (std::size_t i = 0; i < model.paths.size(); ++i) json["muscles"].push_back(muscleJson(names, model, i));
-  json["warnings"] = warningsToJson(model.warnings);
-  return json;
-}
 
 ForeignModel foreignModelFromJson(const JsonReader& json) {
   return Reader{json}.read();

@@ -27,17 +27,14 @@ void setUnitAxes(ForeignJoint& joint) {
 }  // namespace
 
 void OsimReader::readJoints() {
-  // Versions 2 and 3: the joint is inside the body that it moves.
   for (const auto& body : osimObjects(root_, "BodySet"))
-    if (const auto holder = body.find("Joint"); holder && !holder->children().empty()) {
-      const XmlElement joint = holder->children().front();
-      const XmlElement parent = joint["parent_body"];
-      OsimFrame on_parent = bodyNamed(parent, parent.text()), on_child = frames_.at("/bodyset/" + body.name());
-      on_parent.X_BF = osimPose(joint.find("location_in_parent"), joint.find("orientation_in_parent"));
-      on_child.X_BF = osimPose(joint.find("location"), joint.find("orientation"));
-      readJoint(joint, on_parent, on_child);
-    }
+    if (const auto holder = body.find("Joint"); holder && !holder->children().empty())
+      readOldJoint(holder->children().front(), bodyNamed(body, body.name()));
   for (const auto& joint : osimObjects(root_, "JointSet")) {
+    if (const auto child = joint.find("body"); child && joint.has("parent_body")) {
+      readOldJoint(joint, bodyNamed(*child, child->text()));
+      continue;
+    }
     const std::string path = "/jointset/" + joint.name();
     if (const auto own = joint.find("frames")) readOwnFrames(*own, path);
     const auto parent = joint.findAny({"socket_parent_frame", "socket_parent_frame_connectee_name"});
@@ -47,6 +44,16 @@ void OsimReader::readJoints() {
   }
   orderJoints();
   markTranslations();
+}
+
+/// Versions 2 and 3: frames by location and orientation, the joint inside the body that it moves.
+void OsimReader::readOldJoint(const XmlElement& joint, OsimFrame on_child) {
+  const XmlElement parent = joint["parent_body"];
+  OsimFrame on_parent = bodyNamed(parent, parent.text());
+  on_parent.X_BF = osimPose(joint.find("location_in_parent"), joint.find("orientation_in_parent"));
+  on_child.X_BF = osimPose(joint.findAny({"location", "location_in_child"}),
+                           joint.findAny({"orientation", "orientation_in_child"}));
+  readJoint(joint, on_parent, on_child);
 }
 
 void OsimReader::readJoint(const XmlElement& element, const OsimFrame& parent, const OsimFrame& child) {

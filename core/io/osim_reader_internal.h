@@ -34,6 +34,7 @@ class OsimReader {
 
   // osim_joints.cpp
   void readJoints();
+  void readOldJoint(const XmlElement& joint, OsimFrame on_child);
   void readJoint(const XmlElement& joint, const OsimFrame& parent, const OsimFrame& child);
   void readCoordinates(const XmlElement& joint, ForeignJoint& into);
   void fixedMotion(ForeignJoint& joint);
