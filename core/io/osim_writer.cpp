@@ -1,81 +1,16 @@
 #include "core/io/osim_writer.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
-#include <functional>
 #include <map>
-#include <pugixml.hpp>
-#include <set>
 #include <sstream>
+
+#include "core/io/osim_nodes_internal.h"
 
 namespace sinew {
 namespace {
 
-using Node = pugi::xml_node;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value == 0 ? 0.0 : value);
-  return text;
-}
-
-template <class Range>
-std::string numbers(const Range& values) {
-  std::string text;
-  for (const double v : values) text += (text.empty() ? "" : " ") + number(v);
-  return text;
-}
-
-void leaf(Node parent, const char* tag, const std::string& text) {
-  parent.append_child(tag).text().set(text.c_str());
-}
-
-Node named(Node parent, const std::string& tag, const std::string& name) {
-  Node node = parent.append_child(tag.c_str());
-  node.append_attribute("name").set_value(name.c_str());
-  return node;
-}
-
-/// <XSet name="xset"><objects>..</objects><groups/></XSet>; the answer is <objects>.
-Node openSet(Node parent, const char* tag, const std::string& name) {
-  Node set = named(parent, tag, name);
-  Node objects = set.append_child("objects");
-  set.append_child("groups");
-  return objects;
-}
-
-/// Angles of the intrinsic x-y-z sequence.
-Eigen::Vector3d xyzAngles(const Eigen::Matrix3d& R) {
-  const double y = std::asin(std::clamp(R(0, 2), -1.0, 1.0));
-  if (std::abs(R(0, 2)) > 1 - 1e-12) return {std::atan2(R(1, 0), R(1, 1)), y, 0};
-  return {std::atan2(-R(1, 2), R(2, 2)), y, std::atan2(-R(0, 1), R(0, 0))};
-}
-
-/// Legal and different names for a list.
-std::vector<std::string> legalNames(const std::vector<std::string>& names) {
-  std::set<std::string> taken;
-  std::vector<std::string> legal;
-  for (std::string name : names) {
-    for (char& c : name)
-      if (std::string_view{"\\/*+<>&\"' \t\r\n"}.find(c) != std::string_view::npos) c = '_';
-    if (name.empty()) name = "unnamed";
-    std::string unique = name;
-    for (int i = 2; !taken.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
-    legal.push_back(unique);
-  }
-  return legal;
-}
-
-template <class List, class Name>
-std::vector<std::string> legalNames(const List& list, Name name) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.push_back(std::invoke(name, item));
-  return legalNames(names);
-}
+using namespace osim;
 
 class OsimWriter {
  public:
@@ -301,14 +236,10 @@ class OsimWriter {
   void path(Node muscle, std::size_t index) {
     const ForeignPath& path = model_.paths[index];
     Node geometry = named(muscle, "GeometryPath", "geometrypath");
-    Node points = geometry.append_child("PathPointSet");
-    Node objects = points.append_child("objects");
-    points.append_child("groups");
+    Node objects = openSet(geometry, "PathPointSet");
     for (std::size_t i = 0; i < path.points.size(); ++i)
       pathPoint(objects, path.points[i], muscles_[index] + "-P" + std::to_string(i + 1));
-    Node wraps = geometry.append_child("PathWrapSet");
-    Node wrap_objects = wraps.append_child("objects");
-    wraps.append_child("groups");
+    Node wrap_objects = openSet(geometry, "PathWrapSet");
     for (std::size_t i = 0; i < path.wraps.size(); ++i) {
       const PathWrap& w = path.wraps[i];
       Node wrap = named(wrap_objects, "PathWrap", "pathwrap_" + std::to_string(i + 1));

@@ -258,6 +258,12 @@ TEST(ForeignModelFile, JsonGivesTheSameModelBack) {
   Json broken = json;
   broken["muscles"][0]["points"][0]["body"] = "nowhere";
   EXPECT_THROW(foreignModelFromJson(JsonReader{broken, "test"}), InputError);
+  Json unordered = json;
+  std::swap(unordered["joints"][0], unordered["joints"][1]);  // the shank before the thigh
+  EXPECT_THROW(foreignModelFromJson(JsonReader{unordered, "test"}), InputError);
+  Json twice = json;
+  twice["coordinates"][1]["name"] = twice["coordinates"][0]["name"];
+  EXPECT_THROW(foreignModelFromJson(JsonReader{twice, "test"}), InputError);
 }
 
 TEST(ForeignEvaluate, ForcesFollowFromLengthsAndArms) {

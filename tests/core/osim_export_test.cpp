@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdio>
+#include <numbers>
 
 #include "core/foreign/foreign_from_model.h"
 #include "core/foreign/length_deviation.h"
@@ -143,6 +144,29 @@ TEST(OsimExport, ABlendOverOneCoordinateIsExact) {
   unit.path[1].anchors.push_back({tibia, 0.4, {-0.03, -0.008, 0}});
   const LengthDeviation deviation = lengthDeviation(model, foreignFromModel(model));
   EXPECT_EQ(deviation.exactUnits(), 1) << deviation.worst().max_norm_m;
+}
+
+/// Frames at and near the pole of their angles, obstacles, conditional points: what a reader gave is written back.
+TEST(OsimExport, WhatWasReadIsWrittenBack) {
+  for (const double y_deg : {-90.0, 90.0, 90.0 - 1e-7, 30.0}) {
+    ForeignModel model = exported();
+    RigidTransform X = RigidTransform::Identity();
+    X.linear() = rotationAbout<double>(Eigen::Vector3d::UnitX(), 0.4) *
+                 rotationAbout<double>(Eigen::Vector3d::UnitY(), y_deg * std::numbers::pi / 180) *
+                 rotationAbout<double>(Eigen::Vector3d::UnitZ(), -0.7);
+    model.joints[3].X_PF = X;
+    model.wrap_objects.push_back({"roll", 2, X, WrapShape::Cylinder, {0.02, 0.02, 0.1}, 1, -1});
+    model.paths[0].wraps.push_back({0, 0, -1});
+    model.paths[1].points[1].condition = ForeignPathPoint::Condition{7, -0.2, 0.3};
+    const ForeignModel back = osimFromText(osimText(model), "test.osim");
+    EXPECT_LT((back.joints[3].X_PF.linear() - X.linear()).norm(), 1e-12) << y_deg;
+    ASSERT_EQ(back.wrap_objects.size(), 1u);
+    EXPECT_EQ(back.wrap_objects[0].radii_m, model.wrap_objects[0].radii_m);
+    EXPECT_EQ(back.wrap_objects[0].side_sign, -1);
+    EXPECT_EQ(back.paths[0].wraps.at(0).first_point, 0);
+    ASSERT_TRUE(back.paths[1].points[1].condition);
+    EXPECT_EQ(back.paths[1].points[1].condition->max, 0.3);
+  }
 }
 
 TEST(OsimExport, NamesAndMusclesAreLegal) {
