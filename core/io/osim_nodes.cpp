@@ -30,10 +30,11 @@ Node openSet(Node parent, const char* tag, const std::string& name) {
   return objects;
 }
 
+/// z first, then the others from what is left: exact at the pole too, where z is any number.
 Eigen::Vector3d xyzAngles(const Eigen::Matrix3d& R) {
-  const double y = std::atan2(R(0, 2), std::hypot(R(0, 0), R(0, 1)));
-  if (std::abs(R(0, 2)) > 1 - 1e-12) return {std::atan2(R(0, 2) * R(1, 0), R(1, 1)), y, 0};  // z and x are one turn
-  return {std::atan2(-R(1, 2), R(2, 2)), y, std::atan2(-R(0, 1), R(0, 0))};
+  const double z = std::atan2(-R(0, 1), R(0, 0)), c = std::cos(z), s = std::sin(z);
+  const Eigen::Vector3d x_column = R * Eigen::Vector3d{c, -s, 0}, y_column = R * Eigen::Vector3d{s, c, 0};
+  return {std::atan2(y_column.z(), y_column.y()), std::atan2(R(0, 2), x_column.x()), z};
 }
 
 std::vector<std::string> legalNames(const std::vector<std::string>& names) {
