@@ -93,6 +93,7 @@ void addCommands(Commands& commands) {
   addCurveCommand(commands);
   addRomCommand(commands);
   addExportCommand(commands);
+  addImportCommand(commands);
   addBenchCommand(commands);
   addRomTestsCommand(commands);
   addPosesCommands(commands);

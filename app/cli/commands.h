@@ -37,6 +37,7 @@ void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
 void addExportCommand(Commands& commands);
+void addImportCommand(Commands& commands);
 void addBenchCommand(Commands& commands);
 void addRomTestsCommand(Commands& commands);
 void addPosesCommands(Commands& commands);

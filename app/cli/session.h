@@ -9,6 +9,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/progress.h"
 #include "clinical/case.h"
+#include "core/foreign/foreign_model.h"
 #include "core/model/model.h"
 #include "core/retarget/retarget.h"
 #include "core/strict_json.h"
@@ -46,6 +47,8 @@ class Session {
   std::shared_ptr<const RetargetReference> retargeting();
   /// "reference", "reference:athlete" or a model file.
   Model model(const std::string& name_or_file);
+  /// A model of another program, if the name is that of such a file; its warnings are shown. nullopt otherwise.
+  std::optional<ForeignModel> foreignModel(const std::string& file);
   const ReportWriter& reportWriter() const { return write_report_; }
 
   Job job();                            ///< progress to stderr, stopped by Ctrl-C

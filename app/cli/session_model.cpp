@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "app/cli/session.h"
+#include "core/foreign/foreign_json.h"
 
 namespace sinew {
 
@@ -30,6 +31,13 @@ Model Session::model(const std::string& name_or_file) {
   if (const auto preset = presetOf(name_or_file))
     return name_or_file == reference().name ? reference() : loadReferenceModel(resourceDir(), *preset);
   return loadModel(name_or_file, reference());
+}
+
+std::optional<ForeignModel> Session::foreignModel(const std::string& file) {
+  if (presetOf(file) || !isForeignModelFile(file)) return std::nullopt;
+  ForeignModel model = loadForeignModel(file);
+  warn(model.warnings);
+  return model;
 }
 
 }  // namespace sinew
