@@ -92,6 +92,7 @@ void addCommands(Commands& commands) {
   addEvaluateCommand(commands);
   addCurveCommand(commands);
   addRomCommand(commands);
+  addRomEditCommand(commands);
   addExportCommand(commands);
   addImportCommand(commands);
   addBenchCommand(commands);

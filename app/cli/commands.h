@@ -36,6 +36,7 @@ void addReplaceBonesCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addRomEditCommand(Commands& commands);
 void addExportCommand(Commands& commands);
 void addImportCommand(Commands& commands);
 void addBenchCommand(Commands& commands);
