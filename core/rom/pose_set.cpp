@@ -106,6 +106,14 @@ Posture PoseSet::posture(std::size_t i) const {
   return Eigen::Map<const Eigen::VectorXf>(values_.data() + i * names_.size(), n).cast<double>();
 }
 
+void PoseSet::read(std::size_t first, PoseTable& table) const {
+  require(first + table.poseCount() <= size() && table.entryCount() == names_.size(),
+          "PoseSet::read: within the set");
+  const float* value = &values_[first * names_.size()];
+  for (std::size_t pose = 0; pose < table.poseCount(); ++pose)
+    for (std::size_t entry = 0; entry < table.entryCount(); ++entry) table(pose, entry) = *value++;
+}
+
 void PoseSet::visit(const PoseVisitor& visit) const {
   const auto n = static_cast<Eigen::Index>(names_.size());
   for (std::size_t i = 0; i < size(); i += kPoseBlock) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/kernel/pose_table.h"
 #include "core/skeleton/kinematics.h"
 
 namespace sinew {
@@ -42,6 +43,8 @@ class PoseSet {
   const std::vector<std::string>& coordinateNames() const { return names_; }
 
   void visit(const PoseVisitor& visit) const;
+  /// Fills `table` with the postures from number `first` on, as many as it has room for.
+  void read(std::size_t first, PoseTable& table) const;
   PoseStream stream() const {
     return [this](const PoseVisitor& v) { visit(v); };
   }

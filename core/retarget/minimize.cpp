@@ -1,0 +1,94 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/retarget/minimize_internal.h"
+
+namespace sinew {
+
+Minimum leastSquares(const UnitProblem& problem, Objective objective, const Eigen::VectorXd& from,
+                     int most_iterations, double tolerance, const std::stop_token& stop) {
+  constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7;
+  constexpr int kMostTrials = 6;
+  Minimum best{from};
+  UnitProblem::Expansion e;
+  problem.expand(best.x, objective, e);
+  best.energy = e.energy;
+  double damping = kFirstDamping;
+  while (best.iterations < most_iterations && !stop.stop_requested()) {
+    ++best.iterations;
+    const double before = best.energy;
+    bool better = false;
+    for (int trial = 0; trial < kMostTrials && !better; ++trial) {
+      Eigen::MatrixXd damped = e.hessian;
+      // A point that may not move has a zero row; the added constant leaves it where it is.
+      damped.diagonal() = damped.diagonal() * (1 + damping) + Eigen::VectorXd::Constant(problem.unknowns(), 1e-12);
+      const Eigen::VectorXd step = damped.ldlt().solve(e.gradient);
+      if (0.5 * e.gradient.dot(step) < tolerance * before) break;  // all that can be hoped for
+      const Eigen::VectorXd x = best.x - step;
+      const double energy = problem.energy(x, objective);
+      better = energy < best.energy;
+      if (better) {
+        best.x = x;
+        best.energy = energy;
+        damping = std::max(kLeastDamping, damping * 0.3);
+      } else {
+        damping *= 10;
+      }
+    }
+    if (!better || before - best.energy < tolerance * before) break;
+    problem.expand(best.x, objective, e);
+  }
+  return best;
+}
+
+namespace {
+
+/// Forward differences.
+Eigen::VectorXd differences(const UnitProblem& problem, const Eigen::VectorXd& x, double energy) {
+  constexpr double kStep_m = 1e-5;
+  Eigen::VectorXd gradient(x.size()), moved = x;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    moved[i] = x[i] + kStep_m;
+    gradient[i] = (problem.energy(moved) - energy) / kStep_m;
+    moved[i] = x[i];
+  }
+  return gradient;
+}
+
+}  // namespace
+
+Minimum descent(const UnitProblem& problem, const Eigen::VectorXd& from, const DescentOptions& options,
+                const std::stop_token& stop) {
+  constexpr int kMostTrials = 14;
+  constexpr double kFirstStep_m = 1e-3, kGrowth = 1.7, kShrink = 0.4, kSufficient = 1e-4, kFlat = 1e-7;
+  Minimum best{from, problem.energy(from)};
+  Eigen::VectorXd gradient;
+  double step_m = kFirstStep_m;
+  while (best.iterations < options.most_iterations && !stop.stop_requested()) {
+    ++best.iterations;
+    if (options.finite_differences)
+      gradient = differences(problem, best.x, best.energy);
+    else
+      problem.energy(best.x, gradient);
+    const double slope = gradient.norm();
+    if (slope < kFlat) break;
+    const double before = best.energy;
+    bool better = false;
+    for (int trial = 0; trial < kMostTrials && !better; ++trial) {
+      const Eigen::VectorXd x = best.x - gradient * (step_m / slope);
+      const double energy = problem.energy(x);
+      better = energy < best.energy - kSufficient * step_m * slope;
+      if (better) {
+        best.x = x;
+        best.energy = energy;
+        step_m *= kGrowth;
+      } else {
+        step_m *= kShrink;
+      }
+    }
+    if (!better || before - best.energy < options.tolerance * before) break;
+  }
+  return best;
+}
+
+}  // namespace sinew

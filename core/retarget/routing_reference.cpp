@@ -1,0 +1,150 @@
+#include "core/retarget/routing_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/muscle/muscle_path.h"
+#include "core/muscle/muscle_role.h"
+#include "core/skeleton/clinical_angles.h"
+
+namespace sinew {
+namespace {
+
+bool sameWay(const JointMotion& a, const JointMotion& b) {
+  return a.coordinate == b.coordinate && a.other_posture_deg == b.other_posture_deg &&
+         ((a.start_deg == b.start_deg && a.end_deg == b.end_deg) ||
+          (a.start_deg == b.end_deg && a.end_deg == b.start_deg));
+}
+
+/// A motion and its way back have the same directions and the same curve mirrored in theta, hence the same energy:
+/// they are sampled once and counted twice.
+std::vector<std::pair<const JointMotion*, int>> distinctWays(const std::vector<JointMotion>& motions) {
+  std::vector<std::pair<const JointMotion*, int>> ways;
+  for (const JointMotion& motion : motions) {
+    const auto known = std::ranges::find_if(ways, [&](const auto& way) { return sameWay(*way.first, motion); });
+    if (known == ways.end())
+      ways.emplace_back(&motion, 1);
+    else
+      ++known->second;
+  }
+  return ways;
+}
+
+std::vector<RoutingMotion> sampled(const std::vector<std::pair<const JointMotion*, int>>& ways,
+                                   const Skeleton& skeleton) {
+  std::vector<RoutingMotion> motions;
+  for (const auto& [way, count] : ways) {
+    RoutingMotion& motion = motions.emplace_back(way->name, skeleton.coordinateIndex(way->coordinate), double(count));
+    for (int s = 0; s < kRoutingSamples; ++s)
+      motion.postures.push_back(motionPosture(skeleton, *way, double(s) / (kRoutingSamples - 1)));
+  }
+  return motions;
+}
+
+ReferenceCurves curvesOf(const MusculotendonUnit& unit, const std::vector<int>& motions, const MotionPoses& poses) {
+  ReferenceCurves c;
+  c.motions = motions;
+  c.zero_length_m = pathLength(unit, poses.atZero());
+  for (const int motion : motions) {
+    for (int s = 0; s < kRoutingSamples; ++s) {
+      const auto points = pathPoints(unit, poses.at(motion, s));
+      double length_m = 0;
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Eigen::Vector3d d = points[i + 1] - points[i];
+        length_m += d.norm();
+        c.directions.push_back(d.normalized());
+      }
+      c.lengths.push_back(length_m / c.zero_length_m);
+    }
+    c.features.push_back(curveFeatures(std::span{c.lengths}.last(kRoutingSamples)));
+    c.significance.push_back(c.features.back().range() > kSignificantRange ? 1 : 0);
+  }
+  return c;
+}
+
+PointGuide guideOf(const PathPoint& point, const BoneDistances& bones) {
+  PointGuide guide;
+  guide.attachment = point.role != PathPointRole::Via;
+  const auto heaviest = std::ranges::max_element(point.anchors, {}, &Anchor::weight);
+  guide.heaviest_anchor = static_cast<int>(heaviest - point.anchors.begin());
+  BoneDistances::Surface nearest;
+  for (const Anchor& anchor : point.anchors) {
+    const auto surface = bones.nearest(anchor.segment, anchor.p_B);
+    if (surface.nearest.distance_m < nearest.nearest.distance_m) {
+      nearest = surface;
+      guide.surface_segment = anchor.segment;
+    }
+  }
+  if (guide.surface_segment >= 0) {
+    guide.surface_B = nearest.nearest.point;
+    guide.clearance_m = nearest.nearest.distance_m;
+  }
+  if (guide.attachment) {
+    const bool slides = point.anchors.size() == 1 && guide.surface_segment >= 0;
+    guide.basis_B = slides ? tangentBasis(nearest.nearest.normal) : Eigen::Matrix3d::Zero();
+  }
+  return guide;
+}
+
+bool mirrorImages(const Skeleton& skeleton, const MusculotendonUnit& a, const MusculotendonUnit& b) {
+  if (a.path.size() != b.path.size()) return false;
+  const auto sameAnchor = [&](const Anchor& x, const Anchor& y) {
+    const std::string &right = skeleton.segments[static_cast<std::size_t>(x.segment)].name,
+                      &left = skeleton.segments[static_cast<std::size_t>(y.segment)].name;
+    return withoutSide(right) == withoutSide(left) && (x.segment != y.segment) == (right != withoutSide(right)) &&
+           std::abs(x.weight - y.weight) < 1e-12 && (mirrored(x.p_B) - y.p_B).norm() < 1e-12;
+  };
+  for (std::size_t i = 0; i < a.path.size(); ++i)
+    if (!std::ranges::equal(a.path[i].anchors, b.path[i].anchors, sameAnchor)) return false;
+  return true;
+}
+
+std::vector<int> mirrorsIn(const Model& model) {
+  const auto& units = model.musculature.units;
+  std::vector<int> mirror_of(units.size(), -1);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i].name.ends_with("_r")) continue;
+    const std::string left = std::string{withoutSide(units[i].name)} + "_l";
+    const auto found = std::ranges::find(units, left, &MusculotendonUnit::name);
+    if (found == units.end() || !mirrorImages(model.skeleton, units[i], *found)) continue;
+    mirror_of[i] = static_cast<int>(found - units.begin());
+    mirror_of[static_cast<std::size_t>(mirror_of[i])] = static_cast<int>(i);
+  }
+  return mirror_of;
+}
+
+}  // namespace
+
+Eigen::Matrix3d tangentBasis(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d first = normal.unitOrthogonal();
+  Eigen::Matrix3d basis = Eigen::Matrix3d::Zero();
+  basis.col(0) = first;
+  basis.col(1) = normal.cross(first);
+  return basis;
+}
+
+MotionPoses::MotionPoses(const Skeleton& skeleton, const std::vector<RoutingMotion>& motions)
+    : zero_{segmentPoses(skeleton, zeroPosture(skeleton))} {
+  for (const RoutingMotion& motion : motions)
+    for (const Posture& q : motion.postures) X_WB_.push_back(segmentPoses(skeleton, q));
+}
+
+RoutingReference::RoutingReference(const Model& reference, const std::vector<JointMotion>& motions)
+    : motions_{sampled(distinctWays(motions), reference.skeleton)},
+      poses_{reference.skeleton, motions_},
+      bones_{reference} {
+  require(reference.shape == ShapeParameters{}, "RoutingReference: shapes are relative to the undeformed reference");
+  const Kinematics clinical = clinicalKinematics(reference.skeleton, zeroPosture(reference.skeleton));
+  for (const MusculotendonUnit& unit : reference.musculature.units) {
+    const std::vector<int> spanned = spannedCoordinates(unit, clinical);
+    std::vector<int> taken;
+    for (std::size_t m = 0; m < motions_.size(); ++m)
+      if (std::ranges::count(spanned, motions_[m].coordinate)) taken.push_back(static_cast<int>(m));
+    curves_.push_back(curvesOf(unit, taken, poses_));
+    std::vector<PointGuide>& guides = guides_.emplace_back();
+    for (const PathPoint& point : unit.path) guides.push_back(guideOf(point, bones_));
+  }
+  mirror_of_ = mirrorsIn(reference);
+}
+
+}  // namespace sinew

@@ -1,0 +1,104 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/retarget/routing.h"
+#include "core/retarget/routing_reference.h"
+
+namespace sinew {
+
+/// What is minimised: RoutingEnergy::total(), or a smooth stand-in that compares whole curves alone, without their
+/// features, whose places may jump.
+struct Objective {
+  bool features = true;
+};
+
+/// The routing energy of one unit in one new body as a function of the displacements of its points: three unknowns a
+/// point, in metres of the reference body. Every point is p(x) = c + D x at every sample of every motion, which is
+/// all that the energy needs to know of the skeleton.
+class UnitProblem {
+ public:
+  struct Point {
+    Eigen::Matrix3d basis_W = Eigen::Matrix3d::Zero();  ///< columns: where its unknowns take it, at the zero posture
+    Eigen::Matrix3d basis_B = Eigen::Matrix3d::Zero();  ///< the same in the reference, in its segment's frame
+    Eigen::Vector3d moved_B = Eigen::Vector3d::Zero();  ///< displacement so far, in the reference
+    double price_1_m2 = 0;                              ///< of the whole displacement
+    Eigen::Vector3d outward_W = Eigen::Vector3d::Zero();  ///< away from the bone it glides on; zero: there is none
+    double slack_m = 0;                                   ///< how far it may move towards that bone
+  };
+  /// `unit`: in the new body, its points where displacements count from. `zero_length_m`: what lengths are relative
+  /// to.
+  UnitProblem(const MusculotendonUnit& unit, const ReferenceCurves& reference, const MotionPoses& reference_poses,
+              const MotionPoses& poses, const std::vector<Point>& points, double zero_length_m,
+              const std::vector<RoutingMotion>& motions, const RoutingWeights& weights);
+
+  /// The same unit, its points elsewhere.
+  void moveTo(const MusculotendonUnit& unit, const std::vector<Point>& points);
+
+  int unknowns() const { return 3 * static_cast<int>(points_.size()); }
+  bool isFree() const;  ///< any point may move, and there is something to compare
+
+  RoutingEnergy parts(const Eigen::VectorXd& x) const;
+  double energy(const Eigen::VectorXd& x, Objective objective = {}) const;
+  /// The gradient is exact but for the places where an extremum jumps.
+  double energy(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
+
+  /// Gauss-Newton expansion: E(x + d) ~ energy + gradient.d + d.hessian d / 2; the lower triangle is filled.
+  struct Expansion {
+    double energy = 0;
+    Eigen::VectorXd gradient;
+    Eigen::MatrixXd hessian;
+  };
+  void expand(const Eigen::VectorXd& x, Objective objective, Expansion& expansion) const;
+
+ private:
+  enum class Order { Value, Gradient, Hessian };  ///< how much is asked for
+  struct Place {                                  ///< of one point at one sample
+    Eigen::Vector3d c;
+    Eigen::Matrix3d D, DtD;
+  };
+  /// A piece of the path whose ends do not move against each other in a motion shapes no curve. If its bone also
+  /// turns as in the reference, its direction is the same all the way, and in all such motions: one sample says all.
+  struct RigidPiece {
+    std::size_t motion, piece;
+    double weight = 0;
+  };
+  struct MovingPiece {
+    std::size_t piece;
+    bool changes_length;
+  };
+  void sortPieces(const MusculotendonUnit& unit, const MotionPoses& reference_poses);
+
+  template <Order kOrder>
+  double evaluate(const Eigen::VectorXd& x, Objective objective, RoutingEnergy& parts, Expansion& e) const;
+  struct PieceSum;
+  template <Order kOrder>
+  void addSample(const Eigen::VectorXd& x, std::size_t row, std::size_t piece, double weight, int length_of,
+                 PieceSum& sum) const;
+  template <Order kOrder>
+  static double collect(const PieceSum& sum, std::size_t piece, Expansion& e);
+  template <Order kOrder>
+  double addFeatures(std::size_t motion, Expansion& e) const;
+  template <Order kOrder>
+  double addCurve(std::size_t motion, double weight, Expansion& e) const;
+  template <Order kOrder>
+  double addReversals(std::size_t motion, Expansion& e) const;
+  template <Order kOrder>
+  double addPrices(const Eigen::VectorXd& x, Expansion& e) const;
+
+  const ReferenceCurves* reference_;
+  const MotionPoses* poses_;
+  RoutingWeights weights_;
+  std::vector<Point> points_;
+  std::vector<double> motion_weight_;
+  std::vector<Place> places_;  ///< [motion][sample][point]
+  std::vector<RigidPiece> rigid_;
+  std::vector<std::vector<MovingPiece>> moving_;  ///< by motion: the other pieces
+  double zero_length_m_;
+
+  // Working memory of one evaluation: a problem belongs to one thread.
+  mutable std::vector<double> lengths_;    ///< of the present motion, relative, without rigid pieces
+  mutable Eigen::MatrixXd length_slopes_;  ///< unknowns x samples
+};
+
+}  // namespace sinew
