@@ -94,6 +94,7 @@ void addCommands(Commands& commands) {
   addRomCommand(commands);
   addRomEditCommand(commands);
   addExportCommand(commands);
+  addImportCommand(commands);
   addBenchCommand(commands);
   addRomTestsCommand(commands);
   addPosesCommands(commands);

@@ -40,6 +40,7 @@ void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
 void addRomEditCommand(Commands& commands);
 void addExportCommand(Commands& commands);
+void addImportCommand(Commands& commands);
 void addBenchCommand(Commands& commands);
 void addRomTestsCommand(Commands& commands);
 void addPosesCommands(Commands& commands);

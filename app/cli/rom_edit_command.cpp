@@ -59,16 +59,17 @@ std::string percent(double share) {
 Json cellsJson(const std::vector<RomEditCells>& cells) {
   Json list = Json::array();
   for (const RomEditCells& c : cells)
-    list.push_back({{"joint", c.joint},
-                    {"held", c.held},
-                    {"cells", c.cells},
-                    {"muscles",
-                     {{"wanted", c.wanted}, {"differing", c.differing}, {"of_all", c.ofAll()}, {"of_union", c.ofUnion()}}},
-                    {"muscles_and_stops",
-                     {{"wanted", c.wanted_in_stops},
-                      {"differing", c.differing_in_stops},
-                      {"of_all", c.ofAllInStops()},
-                      {"of_union", c.ofUnionInStops()}}}});
+    list.push_back(
+        {{"joint", c.joint},
+         {"held", c.held},
+         {"cells", c.cells},
+         {"muscles",
+          {{"wanted", c.wanted}, {"differing", c.differing}, {"of_all", c.ofAll()}, {"of_union", c.ofUnion()}}},
+         {"muscles_and_stops",
+          {{"wanted", c.wanted_in_stops},
+           {"differing", c.differing_in_stops},
+           {"of_all", c.ofAllInStops()},
+           {"of_union", c.ofUnionInStops()}}}});
   return list;
 }
 
@@ -133,9 +134,9 @@ std::string resultText(const RomEdits& edits, const RomEditResult& result, const
   for (const RomEditCells& c : result.cells)
     rows.push_back({c.joint, c.held, percent(c.ofAll()), percent(c.ofUnion()), percent(c.ofAllInStops()),
                     percent(c.ofUnionInStops())});
-  text += "\n" + textTable({"cells not as wanted", "held", "muscles, of all", "of union", "with stops, of all",
-                            "of union"},
-                           rows);
+  text += "\n" +
+          textTable({"cells not as wanted", "held", "muscles, of all", "of union", "with stops, of all", "of union"},
+                    rows);
   rows.clear();
   for (std::size_t i = 0; i < limits.after.size(); ++i) {
     const RomLimit &b = limits.before[i], &a = limits.after[i];
@@ -145,23 +146,22 @@ std::string resultText(const RomEdits& edits, const RomEditResult& result, const
   text += "\n" + textTable({"from standing, deg", "before", "ended by", "after", "ended by"}, rows);
   rows.clear();
   for (const auto& c : result.changed) rows.push_back({c.unit, fixed(c.length_factor, 3)});
-  text += "\n" + (rows.empty() ? std::string{"no muscle length changes\n"}
-                               : textTable({"muscle", "length factor"}, rows));
+  text += "\n" +
+          (rows.empty() ? std::string{"no muscle length changes\n"} : textTable({"muscle", "length factor"}, rows));
   return text;
 }
 
 ExitStatus editRom(const RomEditCommandOptions& o, Session& session) {
   const Model model = session.model(o.model);
   const RomEdits edits = editsFrom(o, model.skeleton);
-  const std::string preset =
-      o.preset.empty() ? presetOf(model.name).value_or(std::string{kDefaultPreset}) : o.preset;
+  const std::string preset = o.preset.empty() ? presetOf(model.name).value_or(std::string{kDefaultPreset}) : o.preset;
   const Job job = session.job();
   job.report(0, "pose set of " + preset);
   RomEditSolver solver = romEditSolver(model, session.resourceDir(), preset);
   job.report(0.7, "muscle lengths");
   const auto begin = std::chrono::steady_clock::now();
-  RomEditResult result = solver.solve(
-      edits, {.method = o.method == "paper" ? RomEditMethod::Paper : RomEditMethod::Sinew}, job);
+  RomEditResult result =
+      solver.solve(edits, {.method = o.method == "paper" ? RomEditMethod::Paper : RomEditMethod::Sinew}, job);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.outcome != Outcome::Converged) {
     session.failure({kWhere, "", "", ""}, "the edit was cancelled");
@@ -193,7 +193,8 @@ void addRomEditCommand(Commands& commands) {
   command.add_option("--cone", o->cone, "ball joint: width of the cone of its shaft's directions, 0.63 is narrower");
   command.add_option("--tilt", o->tilt, "ball joint: DIRECTION=DEGREES, as forward=30 or hip_flexion=30");
   command.add_option("--twist-scale", o->twist_scale, "ball joint: width of the turn about its shaft");
-  command.add_option("--twist-shift", o->twist_shift_deg, "ball joint: turn about its shaft moved by so many degrees");
+  command.add_option("--twist-shift", o->twist_shift_deg,
+                     "ball joint: turn about its shaft moved by so many degrees");
   command.add_option("--edits", o->edits_file, "file of edits (sinew.rom_edits), done first");
   command.add_option("--method", o->method, "how muscle lengths are found")
       ->check(CLI::IsMember({"sinew", "paper"}))

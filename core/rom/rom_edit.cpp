@@ -13,7 +13,8 @@ namespace sinew {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kAlongShaft = 0.9;  // cosine beyond which an axis turns about the shaft, or a direction is the shaft's
+constexpr double kAlongShaft =
+    0.9;  // cosine beyond which an axis turns about the shaft, or a direction is the shaft's
 
 Eigen::Vector3d vectorOf(const std::array<double, 3>& v) {
   return {v[0], v[1], v[2]};
@@ -105,8 +106,8 @@ Eigen::Vector3d tiltVector_J(const Skeleton& skeleton, int joint, const RomTilt&
     known.push_back(name);
     list += (list.empty() ? "" : ", ") + name;
   }
-  throw InputError{
-      {where, "tilt of " + skeleton.joints[joint].name, list, "'" + tilt.towards + "'" + didYouMean(tilt.towards, known)}};
+  throw InputError{{where, "tilt of " + skeleton.joints[joint].name, list,
+                    "'" + tilt.towards + "'" + didYouMean(tilt.towards, known)}};
 }
 
 void checkRomEdits(const Skeleton& skeleton, const RomEdits& edits, const std::string& where) {

@@ -28,8 +28,8 @@ std::vector<std::uint8_t> wantedWithinStops(const Skeleton& skeleton, const RomT
       const Eigen::Matrix3d swing = swingTo(map.frame.shaft_J, *v).toRotationMatrix();
       for (int t = 0; t < RomMap::kTwists; ++t)
         if (twists[t])
-          wanted[RomMap::cell(t, p, a)] = box.holds(
-              clinicalReadings(skeleton, j, swing * rotationAbout<double>(map.frame.shaft_J, *twists[t])));
+          wanted[RomMap::cell(t, p, a)] =
+              box.holds(clinicalReadings(skeleton, j, swing * rotationAbout<double>(map.frame.shaft_J, *twists[t])));
     }
   return wanted;
 }

@@ -15,7 +15,8 @@ double degrees(double rad) {
   double deg = rad / kRadPerDeg;
   const double rounded = std::round(deg * 1e6) / 1e6;
   if (rounded * kRadPerDeg == rad) return rounded;
-  for (int i = 0; i < 8 && deg * kRadPerDeg != rad; ++i) deg = std::nextafter(deg, deg * kRadPerDeg < rad ? 1e9 : -1e9);
+  for (int i = 0; i < 8 && deg * kRadPerDeg != rad; ++i)
+    deg = std::nextafter(deg, deg * kRadPerDeg < rad ? 1e9 : -1e9);
   return deg;
 }
 

@@ -25,7 +25,8 @@ bool isOfLattice(std::size_t cell) {
   return (azimuth + 2 * polar + twist) % 4 == 0;
 }
 
-/// Within the new stops muscles do what muscles and stops together are to do, beyond them what muscles are to do alone.
+/// Within the new stops muscles do what muscles and stops together are to do, beyond them what muscles are to do
+/// alone.
 void appendSamples(const JointGoal& goal, double weight_alone, ThresholdProblem& problem) {
   const JointCells& cells = *goal.cells;
   for (std::size_t s = 0; s < cells.sampleCount(); ++s) {

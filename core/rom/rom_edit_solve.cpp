@@ -57,6 +57,12 @@ RomEditCells countedCells(const Skeleton& skeleton, const JointGoal& goal, const
   return c;
 }
 
+void requireSomething(const JointGoal& goal, const std::string& joint) {
+  for (std::size_t s = 0; s < goal.muscles.size(); ++s)
+    if (goal.isWanted(s)) return;
+  throw InputError{{"range-of-motion edit", joint, "an edit that leaves the joint a posture", "none in any cell"}};
+}
+
 void setStop(Skeleton& skeleton, int coordinate, double min_rad, double max_rad, RomEditResult& result) {
   Coordinate& c = skeleton.coordinates[coordinate];
   if (c.stop_min_rad == min_rad && c.stop_max_rad == max_rad) return;
@@ -85,8 +91,9 @@ void setLength(Model& model, int unit, double factor, std::vector<RomEditChange>
 
 std::vector<HeldPosture> heldPostures(const Skeleton& skeleton, int joint) {
   static const std::map<std::string_view, std::map<std::string, double>> kSlackNeighbour = {
-      {"hip", {{"knee_flexion", 90}}},      {"knee", {{"hip_flexion", 90}}},       {"ankle", {{"knee_flexion", 90}}},
-      {"shoulder", {{"elbow_flexion", 90}}}, {"elbow", {{"shoulder_flexion", 90}}}, {"wrist", {{"elbow_flexion", 90}}},
+      {"hip", {{"knee_flexion", 90}}},       {"knee", {{"hip_flexion", 90}}},
+      {"ankle", {{"knee_flexion", 90}}},     {"shoulder", {{"elbow_flexion", 90}}},
+      {"elbow", {{"shoulder_flexion", 90}}}, {"wrist", {{"elbow_flexion", 90}}},
       {"lumbosacral", {{"hip_flexion", 90}}}};
   const std::string& name = skeleton.joints[joint].name;
   std::vector<HeldPosture> held = {{"zero", zeroPosture(skeleton), 1}};
@@ -120,7 +127,8 @@ struct RomEditSolver::State {
   }
 
   /// Factor on the length of every given unit, as the paper has it.
-  std::vector<double> paperFactors(const RomTransform& transform, const std::vector<int>& units, const Job& job) const {
+  std::vector<double> paperFactors(const RomTransform& transform, const std::vector<int>& units,
+                                   const Job& job) const {
     auto factors = longestOver(poses, reference.skeleton, onlyUnits(reference.musculature, units), &transform, job);
     for (std::size_t i = 0; i < units.size(); ++i) factors[i] /= longest_path_m[std::size_t(units[i])];
     return factors;
@@ -132,7 +140,8 @@ struct RomEditSolver::State {
 };
 
 std::vector<double> RomEditSolver::State::sinewFactors(std::vector<JointGoal>& goals, const RomTransform& transform,
-                                                       const std::vector<int>& units, const std::vector<double>& paper,
+                                                       const std::vector<int>& units,
+                                                       const std::vector<double>& paper,
                                                        const RomEditOptions& options, const Job& job) const {
   const JoinedProblem joined = joinedProblem(goals, options.weight_of_muscles_alone);
   require(joined.units == units, "the units of the problem are those that span an edited joint");
@@ -186,9 +195,7 @@ RomEditResult RomEditSolver::solve(const RomEdits& edits, const RomEditOptions& 
     if (!cells) return cancelled;
     goals.push_back(goalOf(reference, transform, *cells));
     spanning.insert(cells->units().begin(), cells->units().end());
-    if (std::ranges::count(goals.back().muscles, 1) == 0)
-      throw InputError{{"range-of-motion edit", reference.skeleton.joints[joint].name,
-                        "an edit that leaves the joint a posture", "none in any cell"}};
+    requireSomething(goals.back(), reference.skeleton.joints[joint].name);
   }
   const std::vector<int> units{spanning.begin(), spanning.end()};
   result.outcome = Outcome::Converged;

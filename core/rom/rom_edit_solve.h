@@ -11,8 +11,8 @@
 
 namespace sinew {
 
-// Muscle lengths (and joint stops) with which the muscle-induced range of motion follows an edit. Only units that span
-// an edited joint change, fibre and tendon alike. See docs/methods/range_of_motion.md.
+// Muscle lengths (and joint stops) with which the muscle-induced range of motion follows an edit. Only units that
+// span an edited joint change, fibre and tendon alike. See docs/methods/range_of_motion.md.
 
 enum class RomEditMethod {
   Paper,  ///< Ryu et al.: the pose set goes through T^-1, lengths are estimated again
@@ -34,7 +34,7 @@ std::vector<HeldPosture> heldPostures(const Skeleton& skeleton, int joint);
 struct RomEditCells {
   std::string joint, held;
   int cells = 0;
-  int wanted = 0, differing = 0, either = 0;              ///< muscles alone, as Ryu et al. measure
+  int wanted = 0, differing = 0, either = 0;                             ///< muscles alone, as Ryu et al. measure
   int wanted_in_stops = 0, differing_in_stops = 0, either_in_stops = 0;  ///< muscles and stops
   double ofAll() const { return double(differing) / cells; }
   double ofUnion() const { return either ? double(differing) / either : 0; }
@@ -62,13 +62,13 @@ struct RomEditResult {
 
 struct RomEditOptions {
   RomEditMethod method = RomEditMethod::Sinew;
-  /// What a cell counts by which the muscles alone are wrong, be it beyond the stops where no posture of the body is; a
-  /// cell by which muscles and stops together are wrong counts 1. A multiple of 1/64.
-  double weight_of_muscles_alone = 3.0 / 64;
+  /// What a cell counts by which the muscles alone are wrong, be it beyond the stops where no posture of the body is;
+  /// a cell by which muscles and stops together are wrong counts 1. A multiple of 1/64.
+  double weight_of_muscles_alone = 4.0 / 64;
 };
 
-/// Solves edits of one reference. The pose set and, for each joint when it is first edited, the lengths of its units in
-/// all cells are prepared once. Belongs to one thread.
+/// Solves edits of one reference. The pose set and, for each joint when it is first edited, the lengths of its units
+/// in all cells are prepared once. Belongs to one thread.
 class RomEditSolver {
  public:
   /// @param poses what `reference` was made from: kept in memory (0.2 kB a posture).

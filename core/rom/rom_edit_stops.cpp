@@ -10,8 +10,8 @@ namespace sinew {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTolerance_rad = 1e-9;       // as maps have it
-constexpr double kLeastWidth_rad = 0.017;     // of an interval of stops
+constexpr double kTolerance_rad = 1e-9;    // as maps have it
+constexpr double kLeastWidth_rad = 0.017;  // of an interval of stops
 constexpr int kMostRounds = 8;
 
 /// One of the six ends as an upper limit: sign * angle <= sign * end.
@@ -54,8 +54,8 @@ double bestEnd(const std::vector<Candidate>& list, double least_allowed, double 
     if (low > high || gain < most) return;
     if (gain > most) most = gain, distance = kInfinity;
     const double margin = std::min(1e-4, (high - low) / 2);
-    const double value = reference >= low && reference < high ? reference
-                                                              : std::clamp(carried, low + margin, high - margin);
+    const double value =
+        reference >= low && reference < high ? reference : std::clamp(carried, low + margin, high - margin);
     const double apart = value == reference ? -1 : std::abs(value - carried);
     if (apart < distance) distance = apart, chosen = value;
   };

@@ -19,8 +19,9 @@ StopBox stopBoxOf(const Skeleton& skeleton, int joint);
 /// Where the six ends go if each is taken alone through T^-1: what fits begin from and prefer.
 StopBox carriedStopBox(const Skeleton& skeleton, const RomTransform& transform, int joint);
 
-/// One end after the other to its best place until none moves. `gain`: by cell, what it is worth to hold it (negative:
-/// to exclude it). An end stays at `reference` if that costs nothing, else it is the best value nearest to `carried`.
+/// One end after the other to its best place until none moves. `gain`: by cell, what it is worth to hold it
+/// (negative: to exclude it). An end stays at `reference` if that costs nothing, else it is the best value nearest to
+/// `carried`.
 StopBox fittedStopBox(const JointCells& cells, const std::vector<double>& gain, const StopBox& start,
                       const StopBox& reference, const StopBox& carried);
 

@@ -50,8 +50,8 @@ RomMap editedRomMap(const Model& reference, const RomTransform& transform, const
   if (!image) return map;
   const TransformedGrid grid = transformedGrid(transform, joint, map);
   CellJudge judge{reference, joint, *image};
-  const auto verdicts = judgeGrid(reference.skeleton, reference.musculature, judge.units(), joint, *image,
-                                  {grid.twists, grid.swings});
+  const auto verdicts =
+      judgeGrid(reference.skeleton, reference.musculature, judge.units(), joint, *image, {grid.twists, grid.swings});
   const std::size_t swings = grid.swings.size();
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (!grid.has_twist[i / swings] || !grid.has_swing[i % swings]) continue;

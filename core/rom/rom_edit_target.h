@@ -10,7 +10,8 @@ namespace sinew {
 /// V~(q) with what decides it; nullopt where T has no image (not valid).
 std::optional<Validity> editedValidity(const Model& reference, const RomTransform& transform, const Posture& q);
 
-/// The map that an edit asks for, cells as romMap() has them; what is held is transformed too, if its joint is edited.
+/// The map that an edit asks for, cells as romMap() has them; what is held is transformed too, if its joint is
+/// edited.
 RomMap editedRomMap(const Model& reference, const RomTransform& transform, const std::string& joint,
                     const Posture& held, const RomMapOptions& options = {});
 

@@ -32,9 +32,8 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::vector<Eigen::Vector3d> shafts(const Skeleton& skeleton) {
   std::vector<Eigen::Vector3d> shaft_J;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
-    shaft_J.push_back(skeleton.joints[j].type == JointType::Ball
-                          ? romMapFrame(skeleton, static_cast<int>(j)).shaft_J
-                          : Eigen::Vector3d::Zero());
+    shaft_J.push_back(skeleton.joints[j].type == JointType::Ball ? romMapFrame(skeleton, static_cast<int>(j)).shaft_J
+                                                                 : Eigen::Vector3d::Zero());
   return shaft_J;
 }
 
@@ -104,13 +103,12 @@ RomTransform::RomTransform(const Skeleton& skeleton, const RomCentres& centres, 
 
 double RomTransform::hinge(int joint, double angle_rad) const {
   for (auto s = steps_[joint].rbegin(); s != steps_[joint].rend(); ++s)
-    angle_rad = s->centre_rad + (angle_rad - s->centre_rad - s->shift_rad) / s->factor;
+    angle_rad = s->centre_rad + std::clamp((angle_rad - s->centre_rad - s->shift_rad) / s->factor, -kPi, kPi);
   return angle_rad;
 }
 
 double RomTransform::hingeInverse(int joint, double angle_rad) const {
-  for (const Step& s : steps_[joint])
-    angle_rad = s.centre_rad + s.shift_rad + s.factor * (angle_rad - s.centre_rad);
+  for (const Step& s : steps_[joint]) angle_rad = s.centre_rad + s.shift_rad + s.factor * (angle_rad - s.centre_rad);
   return angle_rad;
 }
 
@@ -147,8 +145,9 @@ TwistSwing RomTransform::ballInverse(int joint, const TwistSwing& orientation) c
   TwistSwing o = orientation;
   for (const Step& s : steps_[joint]) {
     if (s.factor != 1 || s.shift_rad != 0)
-      o.twist_rad = wrapped(s.centre_rad + s.shift_rad +
-                            std::clamp(s.factor * wrapped(o.twist_rad - s.centre_rad), -kHalfTurn_rad, kHalfTurn_rad));
+      o.twist_rad =
+          wrapped(s.centre_rad + s.shift_rad +
+                  std::clamp(s.factor * wrapped(o.twist_rad - s.centre_rad), -kHalfTurn_rad, kHalfTurn_rad));
     if (s.cone_factor != 1)
       o.direction_J = atAngle(s.centre_J, o.direction_J,
                               std::min(s.cone_factor * angleBetween(s.centre_J, o.direction_J), kHalfTurn_rad));

@@ -8,8 +8,8 @@
 
 namespace sinew {
 
-/// The middles of the ranges, about which edits scale (phi of Ryu et al.): averages over a pose set, computed once per
-/// reference. By joint; only what fits its type counts.
+/// The middles of the ranges, about which edits scale (phi of Ryu et al.): averages over a pose set, computed once
+/// per reference. By joint; only what fits its type counts.
 struct RomCentres {
   std::vector<double> angle_rad;             ///< of hinges
   std::vector<double> twist_rad;             ///< of ball joints, circular mean
@@ -17,9 +17,9 @@ struct RomCentres {
 };
 RomCentres romCentres(const Skeleton& skeleton, const PoseStream& poses);
 
-/// T of a list of edits, and its inverse. On one ball joint: the direction is turned back by the tilt and its angle to
-/// the middle of the cone divided by the factor; the twist likewise about its own middle. What T takes beyond half a
-/// turn has no image: outside of the edited range, whatever the reference says.
+/// T of a list of edits, and its inverse. On one ball joint: the direction is turned back by the tilt and its angle
+/// to the middle of the cone divided by the factor; the twist likewise about its own middle. What T takes beyond half
+/// a turn has no image: outside of the edited range, whatever the reference says. (A hinge has one at half a turn.)
 class RomTransform {
  public:
   /// @throws InputError as checkRomEdits().

@@ -7,15 +7,15 @@
 namespace sinew {
 
 // Which samples a set of upper limits lets through, made as equal as possible to which samples are wanted. A sample
-// passes if every column that knows it has a value at most the column's threshold: maps of a joint (samples are cells,
-// columns muscles, values path lengths). The error, the weight of the samples that pass and should not or do not and
-// should, is piecewise constant; with all other thresholds held the best of one column is found exactly in one pass
-// over its sorted values. That gets stuck, so it is done from every start in three ways: columns in their order, in
-// the reverse order, always the one that gains most.
+// passes if every column that knows it has a value at most the column's threshold: maps of a joint (samples are
+// cells, columns muscles, values path lengths). The error, the weight of the samples that pass and should not or do
+// not and should, is piecewise constant; with all other thresholds held the best of one column is found exactly in
+// one pass over its sorted values. That gets stuck, so it is done from every start in three ways: columns in their
+// order, in the reverse order, always the one that gains most.
 
 struct ThresholdColumn {
-  std::vector<double> value;           ///< ascending
-  std::vector<std::uint32_t> sample;   ///< whose value it is
+  std::vector<double> value;          ///< ascending
+  std::vector<std::uint32_t> sample;  ///< whose value it is
 };
 
 struct ThresholdProblem {

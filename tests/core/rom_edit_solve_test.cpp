@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/muscle/hill.h"
+#include "core/muscle/muscle_role.h"
 #include "core/rom/pose_sampler.h"
 #include "core/rom/rom_cells_internal.h"
 #include "core/rom/rom_edit_experiment.h"
@@ -55,8 +56,8 @@ double objective(const RomEditResult& result) {
 }
 
 TEST(ThresholdFit, FindsTheLimitsOfABoxOfSamples) {
-  // Samples on a 10 x 10 grid; those with x <= 3 and y <= 6 are wanted. Two columns know x and y, a third knows what
-  // does not matter.
+  // Samples on a 10 x 10 grid; those with x <= 3 and y <= 6 are wanted. Two columns know x and y, a third knows the
+  // same of all.
   std::vector<ThresholdColumn> columns(3);
   ThresholdProblem p;
   for (int x = 0; x < 10; ++x)
@@ -68,16 +69,16 @@ TEST(ThresholdFit, FindsTheLimitsOfABoxOfSamples) {
     for (std::uint32_t other = 0; other < 10; ++other) {
       columns[0].value.push_back(v), columns[0].sample.push_back(std::uint32_t(v) * 10 + other);
       columns[1].value.push_back(v), columns[1].sample.push_back(other * 10 + std::uint32_t(v));
-      columns[2].value.push_back(v), columns[2].sample.push_back(std::uint32_t(v) * 10 + other);
+      columns[2].value.push_back(1), columns[2].sample.push_back(std::uint32_t(v) * 10 + other);
     }
   p.columns = {&columns[0], &columns[1], &columns[2]};
   const std::vector<double> reference = {7.5, 6.25, 20}, preferred = {3.4, 100, 0};
   const ThresholdFit fit = fitThresholds(p, {reference}, reference, preferred);
   EXPECT_EQ(fit.outcome, Outcome::Converged);
   EXPECT_EQ(fit.error, 0);
-  EXPECT_NEAR(fit.threshold[0], 3.4, 1e-12);  // had to change: the preferred place of those that are right
-  EXPECT_EQ(fit.threshold[1], 6.25);          // was right, stays bit for bit
-  EXPECT_EQ(fit.threshold[2], 20);            // does not matter, stays
+  EXPECT_NEAR(fit.threshold[0], 3.4, 1e-12);         // had to change: the preferred place of those that are right
+  EXPECT_EQ(fit.threshold[1], 6.25);                 // was right, stays bit for bit
+  EXPECT_EQ(fit.threshold[2], 20);                   // does not matter, stays
   EXPECT_EQ(thresholdError(p, {4.5, 6.25, 20}), 7);  // x = 4 passes, seven times
 }
 
@@ -104,11 +105,11 @@ TEST(RomEditSolve, AHingeHeldByAStringFollowsExactly) {
   }
   RomEditSolver on_string{model, std::move(poses)};
   for (const auto method : {RomEditMethod::Paper, RomEditMethod::Sinew}) {
-    const RomEditResult result =
-        on_string.solve({{.joint = "knee_r", .range_factor = 0.5}}, {.method = method});
+    const RomEditResult result = on_string.solve({{.joint = "knee_r", .range_factor = 0.5}}, {.method = method});
     ASSERT_EQ(result.outcome, Outcome::Converged);
     const MusculotendonUnit& unit = result.model.musculature.units[0];
-    EXPECT_NEAR(longestLength_m(unit), 0.2 * std::sin(15 * kDegree), 1e-6);  // postures are stored in single precision
+    EXPECT_NEAR(longestLength_m(unit), 0.2 * std::sin(15 * kDegree),
+                1e-6);  // postures are stored in single precision
     EXPECT_NEAR(unit.tendon_slack_length_m / unit.optimal_fiber_length_m, 0.02 / 1.03 / 0.05, 1e-12);
     for (const RomEditCells& c : result.cells) EXPECT_EQ(c.differing, 0) << c.held;
     ASSERT_EQ(result.stops.size(), 1u);
@@ -129,8 +130,8 @@ TEST(RomEditSolve, NothingIsTouchedThatNeedNotBe) {
   for (std::size_t i = 0; i < reference().musculature.units.size(); ++i) {
     const MusculotendonUnit& before = reference().musculature.units[i];
     EXPECT_TRUE(sameUnit(nothing.model.musculature.units[i], before)) << before.name;
-    const bool spans = std::ranges::count(spannedCoordinates(before, k),
-                                          reference().skeleton.coordinateIndex("knee_flexion_r"));
+    const bool spans =
+        std::ranges::count(spannedCoordinates(before, k), reference().skeleton.coordinateIndex("knee_flexion_r"));
     if (!spans) EXPECT_TRUE(sameUnit(knee.model.musculature.units[i], before)) << before.name;
     EXPECT_EQ(sameUnit(knee.model.musculature.units[i], before), !changed.contains(before.name)) << before.name;
   }
@@ -147,7 +148,8 @@ TEST(RomEditSolve, ThisMethodIsNeverWorseThanThePapers) {
         RomEdits{{.joint = "ankle_r", .cone_factor = 0.7, .tilt = towards("down", 10)}},
         RomEdits{{.joint = "knee_r", .range_factor = 0.8, .shift_rad = 10 * kDegree}},
         RomEdits{{.joint = "hip_r", .tilt = towards("forward", 15)}, {.joint = "knee_r", .range_factor = 0.7}}}) {
-    const RomEditResult paper = solver().solve(edits, {.method = RomEditMethod::Paper}), sinew = solver().solve(edits);
+    const RomEditResult paper = solver().solve(edits, {.method = RomEditMethod::Paper}),
+                        sinew = solver().solve(edits);
     EXPECT_LE(objective(sinew), objective(paper)) << inWords(edits.front());
   }
 }
@@ -180,7 +182,8 @@ TEST(RomEditSolve, FiberAndTendonChangeTogetherAndAreRecorded) {
 
 TEST(RomEditSolve, MirroredEditsGiveMirroredLengths) {
   const auto edit = [](const std::string& side) {
-    return RomEdits{{.joint = "hip" + side, .cone_factor = 0.8, .tilt = towards("outward", 10), .twist_shift_rad = 0.1}};
+    return RomEdits{
+        {.joint = "hip" + side, .cone_factor = 0.8, .tilt = towards("outward", 10), .twist_shift_rad = 0.1}};
   };
   const RomEditResult right = solver().solve(edit("_r")), left = solver().solve(edit("_l"));
   EXPECT_EQ(right.changed.size(), left.changed.size());
@@ -196,7 +199,8 @@ TEST(RomEditSolve, MirroredEditsGiveMirroredLengths) {
 
 TEST(RomEditSolve, IsTheSameEveryTimeAndCanBeCancelled) {
   const RomEditResult one = solver().solve(kHipForward), other = solver().solve(kHipForward);
-  for (std::size_t i = 0; i < one.changed.size(); ++i) EXPECT_EQ(one.changed[i].length_factor, other.changed[i].length_factor);
+  for (std::size_t i = 0; i < one.changed.size(); ++i)
+    EXPECT_EQ(one.changed[i].length_factor, other.changed[i].length_factor);
   std::stop_source stop;
   stop.request_stop();
   const RomEditResult cancelled = solver().solve(kHipForward, {}, {.stop = stop.get_token()});
@@ -206,7 +210,8 @@ TEST(RomEditSolve, IsTheSameEveryTimeAndCanBeCancelled) {
 
 TEST(RomEditSolve, AnEditThatLeavesNothingIsRefused) {
   // A cone that is nearly shut, turned to where no leg goes.
-  EXPECT_THROW(solver().solve({{.joint = "hip_r", .cone_factor = 0.05, .tilt = towards("backward", 179), .twist_factor = 0.05}}),
+  EXPECT_THROW(solver().solve(
+                   {{.joint = "hip_r", .cone_factor = 0.05, .tilt = towards("backward", 179), .twist_factor = 0.05}}),
                InputError);
 }
 

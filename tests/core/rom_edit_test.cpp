@@ -35,7 +35,8 @@ RomTilt towards(const char* name, double deg) {
   return {.towards = name, .angle_rad = deg * kDegree};
 }
 
-/// Middles that are easy to calculate with: hinges at 50 degrees, twists at 0.1, cones about a direction of their own.
+/// Middles that are easy to calculate with: hinges at 50 degrees, twists at 0.1, cones about a direction of their
+/// own.
 RomCentres centres() {
   RomCentres c;
   for (const Joint& joint : skeleton().joints) {
@@ -101,7 +102,8 @@ TEST(RomEdit, TheInverseTakesPosturesBack) {
 }
 
 TEST(RomEdit, EditsComposeAboutTheMiddleThatThoseBeforeThemLeft) {
-  const RomEdits narrow = {{.joint = "hip_r", .cone_factor = 0.8, .tilt = towards("forward", 20), .twist_factor = 0.5}};
+  const RomEdits narrow = {
+      {.joint = "hip_r", .cone_factor = 0.8, .tilt = towards("forward", 20), .twist_factor = 0.5}};
   RomEdits back = narrow;
   back.push_back({.joint = "hip_r", .tilt = towards("forward", -20)});
   back.push_back({.joint = "hip_r", .cone_factor = 1 / 0.8, .twist_factor = 2});
@@ -109,7 +111,8 @@ TEST(RomEdit, EditsComposeAboutTheMiddleThatThoseBeforeThemLeft) {
   for (const Posture& q : normalPostures(skeleton(), 10))
     EXPECT_TRUE(nothing.inverse(q).isApprox(q, 1e-9));  // within the range: nothing was cut off
   // A shift moves the middle about which the next edit scales.
-  const RomTransform two = transformOf({{.joint = "knee_r", .shift_rad = 10 * kDegree}, {.joint = "knee_r", .range_factor = 0.5}});
+  const RomTransform two =
+      transformOf({{.joint = "knee_r", .shift_rad = 10 * kDegree}, {.joint = "knee_r", .range_factor = 0.5}});
   const RomTransform one = transformOf({{.joint = "knee_r", .range_factor = 0.5, .shift_rad = 10 * kDegree}});
   EXPECT_NEAR(two.hinge(jointOf("knee_r"), 0.3), one.hinge(jointOf("knee_r"), 0.3), 1e-12);
 }
@@ -140,7 +143,8 @@ TEST(RomEdit, NamesOfTiltsMeanTheSameOnEitherSide) {
     EXPECT_TRUE(left.isApprox(mirroredAxis(right), 1e-12)) << name;
   }
   const Eigen::Vector3d forward = tiltVector_J(skeleton(), jointOf("hip_r"), towards("forward", 10), "test");
-  EXPECT_TRUE(forward.isApprox(tiltVector_J(skeleton(), jointOf("hip_r"), towards("hip_flexion", 10), "test"), 1e-12));
+  EXPECT_TRUE(
+      forward.isApprox(tiltVector_J(skeleton(), jointOf("hip_r"), towards("hip_flexion", 10), "test"), 1e-12));
   EXPECT_EQ(twistSign(skeleton(), jointOf("hip_r")), -twistSign(skeleton(), jointOf("hip_l")));
 }
 
@@ -151,10 +155,13 @@ TEST(RomEdit, WhatCannotBeDoneIsSaid) {
   EXPECT_THAT(check({.joint = "knee_r", .cone_factor = 0.5}), ThrowsMessage<InputError>(HasSubstr("hinge")));
   EXPECT_THAT(check({.joint = "hip_r", .shift_rad = 0.1}), ThrowsMessage<InputError>(HasSubstr("ball joint")));
   EXPECT_THAT(check({.joint = "hip_r", .cone_factor = 0}), ThrowsMessage<InputError>(HasSubstr("0.05 to 5")));
-  EXPECT_THAT(check({.joint = "hip_r", .cone_factor = std::nan("")}), ThrowsMessage<InputError>(HasSubstr("0.05 to 5")));
-  EXPECT_THAT(check({.joint = "hip_r", .tilt = towards("forwards", 10)}), ThrowsMessage<InputError>(HasSubstr("forward")));
+  EXPECT_THAT(check({.joint = "hip_r", .cone_factor = std::nan("")}),
+              ThrowsMessage<InputError>(HasSubstr("0.05 to 5")));
+  EXPECT_THAT(check({.joint = "hip_r", .tilt = towards("forwards", 10)}),
+              ThrowsMessage<InputError>(HasSubstr("forward")));
   // The arm hangs down: nothing can be tilted that way.
-  EXPECT_THAT(check({.joint = "shoulder_r", .tilt = towards("down", 10)}), ThrowsMessage<InputError>(HasSubstr("outward")));
+  EXPECT_THAT(check({.joint = "shoulder_r", .tilt = towards("down", 10)}),
+              ThrowsMessage<InputError>(HasSubstr("outward")));
   EXPECT_THAT(check({.joint = "hip_r", .tilt = {.angle_rad = 0.1}}), ThrowsMessage<InputError>(HasSubstr("axis")));
 }
 
