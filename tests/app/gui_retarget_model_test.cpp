@@ -319,6 +319,8 @@ TEST(DesignFiles, RangesComeBackAndFormatsAreNamed) {
   EXPECT_NEAR(back[0].tilt.angle_rad, 0.5, 1e-9);
   exportModel(test::plainModel(), folder / "model.xml");
   EXPECT_TRUE(std::filesystem::exists(folder / "model.xml"));
+  EXPECT_FALSE(exportModel(test::plainModel(), folder / "model.osim").empty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "model.osim"));
   EXPECT_THROW(exportModel(test::plainModel(), folder / "model.docx"), InputError);
 }
 

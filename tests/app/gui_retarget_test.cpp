@@ -28,6 +28,7 @@
 #include "app/widgets/explorer/range_slider.h"
 #include "app/widgets/main_window.h"
 #include "app/widgets/model_view.h"
+#include "app/widgets/retarget/body_view.h"
 #include "app/widgets/retarget/change_table.h"
 #include "app/widgets/retarget/characters_view.h"
 #include "app/widgets/retarget/edit_sphere.h"
@@ -158,7 +159,7 @@ TEST_F(RetargetTour, PresetsAreRetargetedRankedAndCompared) {
   EXPECT_GE(energy(0, ChangeTable::Naive), energy(10, ChangeTable::Naive));
   EXPECT_LT(energy(0, ChangeTable::Retargeted), energy(0, ChangeTable::Naive));
   QTest::mouseClick(list.viewport(), Qt::LeftButton, {}, list.visualRect(list.model()->index(0, 0)).center());
-  EXPECT_FALSE(page().muscle().empty());
+  EXPECT_FALSE(page().bodyView().muscle().empty());
   letEventsRun(200);
   EXPECT_NE(find<QLabel>("family_title").text(), "No muscle chosen");
   screenshot("2-alien");
@@ -173,7 +174,7 @@ TEST_F(RetargetTour, PresetsAreRetargetedRankedAndCompared) {
   EXPECT_GT(list.model()->rowCount(), 0);
   EXPECT_LT(list.model()->rowCount(), 40);
   QTest::keyClick(&search, Qt::Key_Return);
-  EXPECT_THAT(page().muscle(), HasSubstr("deltoid"));
+  EXPECT_THAT(page().bodyView().muscle(), HasSubstr("deltoid"));
   letEventsRun(150);
   screenshot("4-hulk");
   click("undo_button");
@@ -202,7 +203,7 @@ TEST_F(RetargetTour, ASliderMovesTheBonesAtOnceAndTheMusclesWhenItIsLetGo) {
   find<QDoubleSpinBox>("value_humerus_l_elongation").setValue(0.7);
   settle();
   EXPECT_EQ(design().body.shape.sides[1].femur.elongation, 1);
-  page().setMuscle("rectus_femoris_r");
+  page().bodyView().setMuscle("rectus_femoris_r");
   letEventsRun(200);
   screenshot("5-asymmetrical");
   click("link_shape_sides");  // on again: the left side takes the right one's shape
@@ -228,11 +229,14 @@ TEST_F(RetargetTour, MassesAndStrengthsFollowTheirFactors) {
   EXPECT_EQ(loadBodyDescription(folder_ / "body.json").physics, design().body.physics);
   answerFileDialog(folder_ / "model.json");
   trigger("save_model");
+  ASSERT_TRUE(waitUntil([&] { return std::filesystem::exists(folder_ / "model.json"); }, kLimit_ms));
   const Model saved = loadModel(folder_ / "model.json", sharedReference()->model());
   EXPECT_EQ(saved.shape, design().body.shape);
-  answerFileDialog(folder_ / "model.xml");
-  trigger("export_model");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "model.xml"));
+  for (const char* exported : {"model.xml", "model.osim"}) {
+    answerFileDialog(folder_ / exported);
+    trigger("export_model");
+    EXPECT_TRUE(waitUntil([&] { return std::filesystem::exists(folder_ / exported); }, kLimit_ms)) << exported;
+  }
 }
 
 TEST_F(RetargetTour, TheRangeOfTheHipIsEditedOnItsSphere) {

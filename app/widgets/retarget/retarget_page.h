@@ -4,11 +4,7 @@
 #include "app/model/retarget/body_solver.h"
 #include "app/model/retarget/retarget_design.h"
 
-class QComboBox;
 class QLabel;
-class QProgressBar;
-class QPushButton;
-class QSplitter;
 class QStackedWidget;
 class QTabWidget;
 class QTimer;
@@ -16,12 +12,9 @@ class QToolButton;
 
 namespace sinew {
 
-class ChangeInspector;
+class BodyView;
 class CharactersView;
-class ColourBar;
 class FactorPanel;
-class FamilyCurves;
-class ModelView;
 class RomEditPanel;
 class RomEditView;
 class ShapePanel;
@@ -37,8 +30,7 @@ class RetargetPage : public QWidget {
 
   DesignDocument& document() { return document_; }
   BodySolver& solver() { return solver_; }
-  const std::string& muscle() const { return muscle_; }
-  void setMuscle(const std::string& unit);
+  BodyView& bodyView() { return *body_view_; }
 
  signals:
   void closeWanted();
@@ -49,47 +41,25 @@ class RetargetPage : public QWidget {
 
  private:
   QWidget* makeHead();
-  QWidget* makeBodyView();
-  QWidget* makeView();
-  QWidget* makeState();
   void designChanged();
-  void refreshSoon();
-  void refresh();
-  void refreshState();
   void showBody();
-  std::shared_ptr<const Model> shownModel() const;
   void showMode();
-  void takePreset(const std::string& name);
-  void openBodyFile();
-  void saveBodyFile();
-  void saveModelFile();
-  void exportFile();
-  bool isSolvedOr(const QString& wanted_for);
-  void report(const std::function<void()>& work);
 
   Workspace& workspace_;
   BodySolver::Loader loader_;
   DesignDocument document_;
-  std::string muscle_;
-  QLabel *body_name_, *state_;
+
+  QLabel* body_name_;
   QToolButton* characters_button_;
-  QComboBox *shown_, *colouring_;
-  ColourBar* bar_;
-  QProgressBar* progress_;
-  QPushButton* cancel_;
   ShapePanel* shape_;
   FactorPanel* factors_;
   RomEditPanel* rom_panel_;
   RomEditView* rom_view_;
   QTabWidget* left_;
   QStackedWidget *right_, *all_;
-  ModelView* view_;
-  FamilyCurves* curves_;
-  ChangeInspector* inspector_;
+  BodyView* body_view_;
   CharactersView* characters_;
-  QTimer *soon_, *settle_;
-  std::shared_ptr<const Model> drawn_;
-  bool fit_wanted_ = true;
+  QTimer* settle_;
   BodySolver solver_;  ///< last: its threads end before what they use goes
 };
 
