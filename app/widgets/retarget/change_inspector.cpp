@@ -76,7 +76,7 @@ ChangeInspector::ChangeInspector(QWidget* parent) : QWidget{parent} {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Fixed);
   header->setSectionResizeMode(0, QHeaderView::Stretch);
-  constexpr int kWidths[] = {0, 66, 92, 76, 60, 58, 82, 72};
+  constexpr int kWidths[] = {0, 64, 88, 74, 58, 56, 80, 90};
   for (int c = 1; c < ChangeTable::kColumns; ++c) header->resizeSection(c, kWidths[c]);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(0, 0, 0, 0);
