@@ -124,15 +124,16 @@ class UnitRouter {
     return to;
   }
 
-  /// Back to the surface, at the distance that it had.
+  /// Back to the surface of its bone, at the distance that it had.
   void slide(std::size_t unit, std::size_t p, UnitProblem::Point& point, Anchor& anchor) const {
+    const PointGuide& guide = prepared_.guides(unit)[p];
     const Eigen::Vector3d before_B = reference_.musculature.units[unit].path[p].anchors.front().p_B;
-    const auto surface = prepared_.bones().nearest(anchor.segment, before_B + point.moved_B);
-    const Eigen::Vector3d p_B =
-        surface.nearest.point + prepared_.guides(unit)[p].clearance_m * surface.nearest.normal;
+    const auto surface =
+        prepared_.bones().bones()[static_cast<std::size_t>(guide.bone)].distance.nearest(before_B + point.moved_B);
+    const Eigen::Vector3d p_B = surface.point + guide.clearance_m * surface.normal;
     point.moved_B = p_B - before_B;
     anchor.p_B = deform(reference_.skeleton, shape_, anchor.segment, p_B);
-    setBasis(anchor, p_B, tangentBasis(surface.nearest.normal), point);
+    setBasis(anchor, p_B, tangentBasis(surface.normal), point);
   }
 
   Place descended(std::size_t i, const Place& naive, UnitProblem& problem, int& iterations,
