@@ -90,6 +90,7 @@ class PeakProblem {
     for (const MusculotendonUnit& unit : musculature.units) forces_.emplace_back(unit);
     for (std::size_t m = 0; m < geometry.motionCount(); ++m)
       fibers_.emplace_back(geometry.unitsOf(m).size() * kSamples, 0.0);
+    scale_Nm_.assign(fibers_.size(), 0.0);
   }
 
   /// Sum of squared conditions and the price of the ratios; with its Gauss-Newton expansion.
@@ -124,46 +125,62 @@ class PeakProblem {
     return torque;
   }
 
-  /// The wanted angle is the greatest if the slope is 0 there - at an end: does not point back inside - and no sample
-  /// is higher. Both in radians: the slope by the curvature, the excess as the width of a parabola of that height.
+  /// Adds the square of one condition of motion m, with its slopes by the motion's units.
+  void addResidual(std::size_t m, double residual, const Eigen::RowVectorXd& by_unit, Eigen::VectorXd& gradient,
+                   Eigen::MatrixXd& hessian) const {
+    const auto& units = geometry_.unitsOf(m);
+    for (std::size_t a = 0; a < units.size(); ++a) {
+      const double slope_a = by_unit[static_cast<Eigen::Index>(a)];
+      gradient[units[a].unit] += 2 * residual * slope_a;
+      for (std::size_t b = 0; b < units.size(); ++b)
+        hessian(units[a].unit, units[b].unit) += 2 * slope_a * by_unit[static_cast<Eigen::Index>(b)];
+    }
+  }
+
+  /// The peak lies within kTolerance_deg of the wanted angle if torque rises up to that much before it and falls from
+  /// that much behind it (at an end: on the one side there is), and no sample farther off is higher. These are
+  /// inequalities linear in the torques: where they hold nothing is left to do, but for a small price of the slope at
+  /// the angle itself. Torques count relative to the highest at first; slopes by theta.
   double addMotion(std::size_t m, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) {
+    constexpr double kTolerance_deg = 1.5, kExact = 0.1;
+    constexpr double kMargin = 0.003, kMarginSamples = 4;  // by which others stay below, in full that far off
     Eigen::MatrixXd slopes;
     const Samples torque = torques(m, slopes);
-    const double highest = torque.maxCoeff();
-    if (!(highest > 0)) return 0;
-    const double width_rad = span_rad(motions_[m]);
-    const double wanted = wanted_theta_[m] * (kSamples - 1);
+    if (!(scale_Nm_[m] > 0)) scale_Nm_[m] = torque.maxCoeff();
+    if (!(scale_Nm_[m] > 0)) return 0;
+    const double wanted = wanted_theta_[m] * (kSamples - 1);  // in samples, as all places below
+    const double tolerance = kTolerance_deg * kRadians / span_rad(motions_[m]) * (kSamples - 1);
     const int middle = std::clamp(static_cast<int>(std::lround(wanted)), 1, kSamples - 2);
-    const double t = wanted - middle;
-    const Eigen::Vector3d value{0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)};
-    const Eigen::Vector3d slope{t - 0.5, -2 * t, t + 0.5};
-    const double step_rad = width_rad / (kSamples - 1);
     const auto around = torque.segment<3>(middle - 1);
-
+    const auto slopes_around = slopes.middleRows<3>(middle - 1);
     double energy = 0;
     const auto add = [&](double residual, const Eigen::RowVectorXd& by_unit) {
       energy += residual * residual;
-      const auto& units = geometry_.unitsOf(m);
-      for (std::size_t a = 0; a < units.size(); ++a) {
-        const double slope_a = by_unit[static_cast<Eigen::Index>(a)];
-        gradient[units[a].unit] += 2 * residual * slope_a;
-        for (std::size_t b = 0; b < units.size(); ++b)
-          hessian(units[a].unit, units[b].unit) += 2 * slope_a * by_unit[static_cast<Eigen::Index>(b)];
-      }
+      addResidual(m, residual, by_unit, gradient, hessian);
     };
-    // Curvature per sample^2, at least that of a curve that loses a tenth of its height over its width.
-    const double bend =
-        std::max(2 * around[1] - around[0] - around[2], 0.2 * highest / ((kSamples - 1) * (kSamples - 1)));
-    const double rise = slope.dot(around);
+    // `wrong`: the sign that the slope of the parabola at a place must not have; 0: it should vanish.
+    const auto addSlope = [&](double place, double weight, int wrong) {
+      const double t = place - middle;
+      const Eigen::Vector3d by_sample =
+          weight * (kSamples - 1) / scale_Nm_[m] * Eigen::Vector3d{t - 0.5, -2 * t, t + 0.5};
+      const double rise = by_sample.dot(around);
+      if (wrong == 0 || rise * wrong > 0) add(rise, by_sample.transpose() * slopes_around);
+    };
     const bool from_start = wanted_theta_[m] <= 0, to_end = wanted_theta_[m] >= 1;
-    if (!(from_start && rise <= 0) && !(to_end && rise >= 0))
-      add(step_rad * rise / bend, step_rad / bend * (slope.transpose() * slopes.middleRows<3>(middle - 1)));
+    if (!from_start) addSlope(wanted - tolerance, 1, -1);
+    if (!to_end) addSlope(wanted + tolerance, 1, 1);
+    addSlope(wanted, kExact, from_start ? 1 : to_end ? -1 : 0);
+
+    const double t = wanted - middle;
+    const Eigen::Vector3d value{0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)};
     const double at_wanted = value.dot(around);
-    const Eigen::RowVectorXd at_wanted_slopes = value.transpose() * slopes.middleRows<3>(middle - 1);
+    const Eigen::RowVectorXd at_wanted_slopes = value.transpose() * slopes_around;
     for (int s = 0; s < kSamples; ++s) {
-      if (std::abs(s - wanted) <= 1) continue;
-      const double excess = (torque[s] - at_wanted) / highest;
-      if (excess > 0) add(width_rad * excess, width_rad / highest * (slopes.row(s) - at_wanted_slopes));
+      const double off = std::abs(s - wanted);
+      if (off <= 1 + tolerance) continue;
+      const double margin = kMargin * std::min(1.0, off / kMarginSamples);
+      const double excess = (torque[s] - at_wanted) / scale_Nm_[m] + margin;
+      if (excess > 0) add(excess, (slopes.row(s) - at_wanted_slopes) / scale_Nm_[m]);
     }
     return energy;
   }
@@ -172,6 +189,7 @@ class PeakProblem {
   const std::vector<JointMotion>& motions_;
   const std::vector<double>& wanted_theta_;
   double price_;
+  std::vector<double> scale_Nm_;  ///< by motion: greatest torque at first
   std::vector<RatioForce> forces_;
   std::vector<std::vector<double>> fibers_;  ///< by motion: fibre lengths found last, to start from
 };

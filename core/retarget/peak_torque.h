@@ -51,7 +51,7 @@ struct PeakTorqueAngle {
 
 struct PeakTorqueOptions {
   double largest_change = 0.3;  ///< of a ratio
-  double ratio_price = 1e-5;    ///< of a squared relative change, against squared radians
+  double ratio_price = 1e-4;    ///< of a squared relative change, against squared shares of the greatest torque
   int most_iterations = 30;
 };
 
