@@ -89,8 +89,20 @@ class PeakProblem {
       : geometry_{geometry}, motions_{motions}, wanted_theta_{wanted_theta}, price_{price} {
     for (const MusculotendonUnit& unit : musculature.units) forces_.emplace_back(unit);
     for (std::size_t m = 0; m < geometry.motionCount(); ++m)
-      fibers_.emplace_back(geometry.unitsOf(m).size() * kSamples, 0.0);
-    scale_Nm_.assign(fibers_.size(), 0.0);
+      swept_.emplace_back().fibers.assign(geometry.unitsOf(m).size() * kSamples, 0.0);
+    scale_Nm_.assign(swept_.size(), 0.0);
+  }
+
+  void setRatios(const Eigen::VectorXd& ratio) {
+    for (std::size_t u = 0; u < forces_.size(); ++u) forces_[u].setFactor(ratio[static_cast<Eigen::Index>(u)]);
+  }
+
+  /// Torques of all motions; each is its own, whoever computes it.
+  void evaluateAll() {
+    forEachInParallel(swept_.size(), {}, "peak torque", [&](std::size_t m) { evaluate(m, swept_[m]); });
+  }
+  double peakTheta(std::size_t m) const {
+    return sinew::peakTheta({swept_[m].torque.begin(), swept_[m].torque.end()});
   }
 
   /// Sum of squared conditions and the price of the ratios; with its Gauss-Newton expansion.
@@ -99,7 +111,8 @@ class PeakProblem {
     gradient = 2 * price_ * off;
     hessian = 2 * price_ * Eigen::MatrixXd::Identity(ratio.size(), ratio.size());
     double energy = price_ * off.squaredNorm();
-    for (std::size_t u = 0; u < forces_.size(); ++u) forces_[u].setFactor(ratio[static_cast<Eigen::Index>(u)]);
+    setRatios(ratio);
+    evaluateAll();
     for (std::size_t m = 0; m < geometry_.motionCount(); ++m)
       if (!std::isnan(wanted_theta_[m])) energy += addMotion(m, gradient, hessian);
     return energy;
@@ -108,21 +121,30 @@ class PeakProblem {
  private:
   using Samples = Eigen::Matrix<double, kSamples, 1>;
 
-  /// Torque by sample and its slopes with the ratios of the motion's units.
-  Samples torques(std::size_t m, Eigen::MatrixXd& slopes) {
+  /// One motion: torque by sample, its slopes with the ratios of the motion's units, and the fibre lengths found.
+  struct Swept {
+    Samples torque;
+    Eigen::MatrixXd slopes;
+    std::vector<double> fibers;
+  };
+
+  void evaluate(std::size_t m, Swept& swept) const {
     const auto& units = geometry_.unitsOf(m);
-    Samples torque = Samples::Zero();
-    slopes.setZero(kSamples, static_cast<Eigen::Index>(units.size()));
-    for (std::size_t k = 0; k < units.size(); ++k)
+    swept.torque.setZero();
+    swept.slopes.setZero(kSamples, static_cast<Eigen::Index>(units.size()));
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      double fiber = 0;  // of the sample before: where the first search of all starts
       for (int s = 0; s < kSamples; ++s) {
         const auto i = static_cast<std::size_t>(s);
         if (!(units[k].arm_m[i] > 0)) continue;
-        const CurveValue force =
-            forces_[static_cast<std::size_t>(units[k].unit)].at(units[k].length_m[i], fibers_[m][k * kSamples + i]);
-        torque[s] += units[k].arm_m[i] * force.value;
-        slopes(s, static_cast<Eigen::Index>(k)) = units[k].arm_m[i] * force.slope;
+        double& start = swept.fibers[k * kSamples + i];
+        if (start == 0) start = fiber;
+        const CurveValue force = forces_[static_cast<std::size_t>(units[k].unit)].at(units[k].length_m[i], start);
+        fiber = start;
+        swept.torque[s] += units[k].arm_m[i] * force.value;
+        swept.slopes(s, static_cast<Eigen::Index>(k)) = units[k].arm_m[i] * force.slope;
       }
-    return torque;
+    }
   }
 
   /// Adds the square of one condition of motion m, with its slopes by the motion's units.
@@ -144,8 +166,7 @@ class PeakProblem {
   double addMotion(std::size_t m, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) {
     constexpr double kTolerance_deg = 1.5, kExact = 0.1;
     constexpr double kMargin = 0.003, kMarginSamples = 4;  // by which others stay below, in full that far off
-    Eigen::MatrixXd slopes;
-    const Samples torque = torques(m, slopes);
+    const auto& [torque, slopes, fibers] = swept_[m];
     if (!(scale_Nm_[m] > 0)) scale_Nm_[m] = torque.maxCoeff();
     if (!(scale_Nm_[m] > 0)) return 0;
     const double wanted = wanted_theta_[m] * (kSamples - 1);  // in samples, as all places below
@@ -191,7 +212,7 @@ class PeakProblem {
   double price_;
   std::vector<double> scale_Nm_;  ///< by motion: greatest torque at first
   std::vector<RatioForce> forces_;
-  std::vector<std::vector<double>> fibers_;  ///< by motion: fibre lengths found last, to start from
+  std::vector<Swept> swept_;  ///< by motion
 };
 
 /// Newton step within bounds: variables that would leave stay at their bound while the others are solved again.
@@ -206,7 +227,7 @@ Eigen::VectorXd boundedStep(const Eigen::VectorXd& x, const Eigen::VectorXd& gra
     // What is already held at a bound moved by a known amount.
     Eigen::VectorXd g = gradient(free) + hessian(free, Eigen::placeholders::all) * (target - x);
     g -= H * (target - x)(free);
-    const Eigen::VectorXd step = -H.ldlt().solve(g);
+    const Eigen::VectorXd step = -H.llt().solve(g);
     std::vector<int> inside;
     for (std::size_t k = 0; k < free.size(); ++k) {
       const int i = free[k];
@@ -229,12 +250,12 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
                                     const std::vector<double>& wanted_theta, Musculature& musculature,
                                     const PeakTorqueOptions& options, const Job& job) {
   PeakTorqueResult result;
+  PeakProblem problem{geometry, motions, wanted_theta, musculature, options.ratio_price};
+  problem.evaluateAll();
   const auto angle_deg = [&](std::size_t m, double theta) { return motions[m].angle_deg(theta); };
   for (std::size_t m = 0; m < motions.size(); ++m)
-    result.angles.push_back({motions[m].name, angle_deg(m, wanted_theta[m]),
-                             angle_deg(m, peakTheta(motionTorque_Nm(musculature, geometry, m)))});
+    result.angles.push_back({motions[m].name, angle_deg(m, wanted_theta[m]), angle_deg(m, problem.peakTheta(m))});
 
-  PeakProblem problem{geometry, motions, wanted_theta, musculature, options.ratio_price};
   const double low = 1 - options.largest_change, high = 1 + options.largest_change;
   Eigen::VectorXd ratio = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(musculature.units.size()));
   Eigen::VectorXd gradient;
@@ -262,8 +283,9 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
   }
   for (std::size_t u = 0; u < musculature.units.size(); ++u)
     setFiberTendonRatio(musculature.units[u], ratio[static_cast<Eigen::Index>(u)]);
-  for (std::size_t m = 0; m < motions.size(); ++m)
-    result.angles[m].after_deg = angle_deg(m, peakTheta(motionTorque_Nm(musculature, geometry, m)));
+  problem.setRatios(ratio);
+  problem.evaluateAll();
+  for (std::size_t m = 0; m < motions.size(); ++m) result.angles[m].after_deg = angle_deg(m, problem.peakTheta(m));
   result.ratio.assign(ratio.begin(), ratio.end());
   result.outcome = Outcome::Converged;
   return result;
