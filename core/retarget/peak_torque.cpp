@@ -41,24 +41,42 @@ PoseTable motionPostures(const Skeleton& skeleton, const std::vector<JointMotion
 }
 
 TorqueGeometry::TorqueGeometry(const Model& model, const PoseTable& postures,
-                               const std::vector<std::vector<int>>& units_of,
-                               const std::vector<JointMotion>& motions) {
+                               const std::vector<std::vector<int>>& units_of, const std::vector<JointMotion>& motions)
+    : TorqueGeometry{model, postures, units_of, motions, *this, {}} {}
+
+TorqueGeometry::TorqueGeometry(const Model& model, const PoseTable& postures,
+                               const std::vector<std::vector<int>>& units_of, const std::vector<JointMotion>& motions,
+                               const TorqueGeometry& previous, const std::vector<bool>& unchanged) {
+  const auto isUnchanged = [&](int unit) { return !unchanged.empty() && unchanged[static_cast<std::size_t>(unit)]; };
+  Musculature measured;
+  std::vector<std::size_t> column(model.musculature.units.size(), 0);
+  for (std::size_t u = 0; u < column.size(); ++u)
+    if (!isUnchanged(static_cast<int>(u))) {
+      column[u] = measured.units.size();
+      measured.units.push_back(model.musculature.units[u]);
+    }
   PoseTable lengths_m;
-  batchLengths(CompiledModel{model.skeleton, model.musculature}, postures, lengths_m);
+  if (!measured.units.empty()) batchLengths(CompiledModel{model.skeleton, measured}, postures, lengths_m);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     auto& units = units_.emplace_back();
     for (const int unit : units_of[m]) {
-      UnitInMotion& swept = units.emplace_back(unit);
+      if (isUnchanged(unit)) {
+        const auto known = std::ranges::find(previous.units_[m], unit, &UnitInMotion::unit);
+        if (known != previous.units_[m].end()) units.push_back(*known);
+        continue;
+      }
+      UnitInMotion swept{unit, {}, {}};
       for (int s = 0; s < kSamples; ++s) {
         const std::size_t pose = (m * kSamples + static_cast<std::size_t>(s)) * 3;
-        const auto at = [&](std::size_t side) { return lengths_m(pose + side, static_cast<std::size_t>(unit)); };
+        const auto at = [&](std::size_t side) {
+          return lengths_m(pose + side, column[static_cast<std::size_t>(unit)]);
+        };
         swept.length_m.push_back(at(1));
         // A unit that shortens along the motion turns its way.
         swept.arm_m.push_back(std::max(0.0, (at(0) - at(2)) / (2 * kStep_rad)));
       }
+      if (std::ranges::any_of(swept.arm_m, [](double r) { return r > 0; })) units.push_back(std::move(swept));
     }
-    std::erase_if(
-        units, [](const UnitInMotion& u) { return std::ranges::all_of(u.arm_m, [](double r) { return r == 0; }); });
   }
 }
 

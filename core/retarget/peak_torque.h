@@ -23,6 +23,10 @@ class TorqueGeometry {
   /// `postures`: motionPostures() of the reference; `units_of`: by motion, the units that span its coordinate.
   TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
                  const std::vector<JointMotion>& motions);
+  /// The same, of which `unchanged` units are taken over from `previous`.
+  TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
+                 const std::vector<JointMotion>& motions, const TorqueGeometry& previous,
+                 const std::vector<bool>& unchanged);
 
   struct UnitInMotion {
     int unit = -1;

@@ -70,11 +70,21 @@ struct Routing {
   std::vector<UnitRouting> units;  ///< in the order of the model
 };
 
+/// An earlier result with the same reference, method and weights: units that feel nothing of what has changed since
+/// take it over, to the last bit what they would come to anew.
+struct PreviousRouting {
+  const Model& model;
+  const std::vector<UnitRouting>& units;
+};
+/// Units whose path in a body of `shape` is the one they have in `previous`.
+std::vector<bool> unchangedUnits(const RoutingReference& prepared, const ShapeParameters& previous,
+                                 const ShapeParameters& shape);
+
 /// Moves the path points of `model`: `reference` in a new body, points anchored naively (deformedModel()); fibre and
-/// tendon lengths stay. Muscles are independent of each other and solved in parallel; a body with equal sides is
-/// solved on the right and mirrored. The same input gives the same result, whatever the number of processors. A
+/// tendon lengths stay. Muscles are independent of each other and solved in parallel; where both sides are equal the
+/// right one is solved and mirrored. The same input gives the same result, whatever the number of processors. A
 /// cancelled job leaves `model` as it was.
 Routing route(const Model& reference, const RoutingReference& prepared, Model& model,
-              const RoutingOptions& options = {}, const Job& job = {});
+              const RoutingOptions& options = {}, const Job& job = {}, const PreviousRouting* previous = nullptr);
 
 }  // namespace sinew

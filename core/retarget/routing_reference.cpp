@@ -136,7 +136,8 @@ MotionPoses::MotionPoses(const Skeleton& skeleton, const std::vector<RoutingMoti
 RoutingReference::RoutingReference(const Model& reference, const std::vector<JointMotion>& motions)
     : motions_{sampled(distinctWays(motions), reference.skeleton)},
       poses_{reference.skeleton, motions_},
-      bones_{reference} {
+      bones_{reference},
+      dependencies_{reference} {
   require(reference.shape == ShapeParameters{}, "RoutingReference: shapes are relative to the undeformed reference");
   const Kinematics clinical = clinicalKinematics(reference.skeleton, zeroPosture(reference.skeleton));
   for (const MusculotendonUnit& unit : reference.musculature.units) {
