@@ -290,7 +290,7 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
     Eigen::MatrixXd next_hessian;
     const double next_energy = problem.expand(next, next_gradient, next_hessian);
     if (next_energy < energy) {
-      const bool settled = energy - next_energy < 1e-4 * energy;
+      const bool settled = energy - next_energy < 1e-3 * energy;
       ratio = next, energy = next_energy;
       gradient.swap(next_gradient), hessian.swap(next_hessian);
       damping = std::max(1e-6, damping * 0.3);
