@@ -92,7 +92,9 @@ void addCommands(Commands& commands) {
   addEvaluateCommand(commands);
   addCurveCommand(commands);
   addRomCommand(commands);
+  addRomEditCommand(commands);
   addExportCommand(commands);
+  addImportCommand(commands);
   addBenchCommand(commands);
   addRomTestsCommand(commands);
   addPosesCommands(commands);
