@@ -279,7 +279,13 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
   double energy = problem.expand(ratio, gradient, hessian), damping = 1e-3;
-  while (result.iterations < options.most_iterations) {
+  // A body whose angles are right already - the reference itself - needs nothing.
+  constexpr double kRight_deg = 0.01;
+  const bool all_right = std::ranges::none_of(result.angles, [](const PeakTorqueAngle& angle) {
+    return std::abs(angle.before_deg - angle.reference_deg) > kRight_deg;
+  });
+  const int most_iterations = all_right ? 0 : options.most_iterations;
+  while (result.iterations < most_iterations) {
     if (job.cancelled()) return {.outcome = Outcome::Cancelled};
     job.report(double(result.iterations) / options.most_iterations, "peak torque");
     ++result.iterations;

@@ -4,20 +4,12 @@
 
 #include "core/muscle/muscle_path.h"
 #include "core/skeleton/bone_field.h"
+#include "core/skeleton/field_derivatives.h"
 
 namespace sinew {
 namespace {
 
 constexpr double kLeastClearance_m = 0.002;  // what a via point keeps from its bone, if it had as much
-
-/// How the field carries a small displacement d_B of a point: forward over 2 h.
-Eigen::Vector3d carried(const Skeleton& reference, const std::vector<double>& shape, int segment,
-                        const Eigen::Vector3d& p_B, const Eigen::Vector3d& d_B) {
-  constexpr double kStep = 1e-4;
-  return (deform(reference, shape, segment, Eigen::Vector3d{p_B + kStep * d_B}) -
-          deform(reference, shape, segment, Eigen::Vector3d{p_B - kStep * d_B})) /
-         (2 * kStep);
-}
 
 }  // namespace
 
@@ -63,10 +55,9 @@ UnitProblem::Point UnitRouter::pointOf(std::size_t unit, std::size_t p, const Pa
 void UnitRouter::setBasis(const Anchor& anchor, const Eigen::Vector3d& p_B, const Eigen::Matrix3d& basis_B,
                           UnitProblem::Point& point) const {
   point.basis_B = basis_B;
-  for (int k = 0; k < 3; ++k)
-    if (!basis_B.col(k).isZero(0))
-      point.basis_W.col(k) = poses_.atZero()[static_cast<std::size_t>(anchor.segment)].linear() *
-                             carried(reference_.skeleton, shape_, anchor.segment, p_B, basis_B.col(k));
+  if (basis_B.isZero(0)) return;
+  point.basis_W = poses_.atZero()[static_cast<std::size_t>(anchor.segment)].linear() *
+                  (fieldJacobian(reference_.skeleton, shape_, anchor.segment, p_B) * basis_B);
 }
 
 void UnitRouter::setGuard(const PointGuide& guide, const PathPoint& naive, UnitProblem::Point& point) const {
