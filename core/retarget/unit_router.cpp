@@ -47,7 +47,7 @@ UnitProblem::Point UnitRouter::pointOf(std::size_t unit, std::size_t p, const Pa
   point.price_1_m2 = guide.attachment ? options_.weights.attachment_1_m2 : options_.weights.via_1_m2;
   setBasis(anchor, anchor.p_B, guide.basis_B, point);
   point.slides = guide.attachment && !guide.basis_B.isZero(0);
-  if (!guide.attachment && guide.surface_segment >= 0) setGuard(guide, naive, point);
+  if (!guide.attachment && guide.surface_segment >= 0) setGuard(unit, p, naive.anchors, point);
   return point;
 }
 
@@ -60,17 +60,40 @@ void UnitRouter::setBasis(const Anchor& anchor, const Eigen::Vector3d& p_B, cons
                   (fieldJacobian(reference_.skeleton, shape_, anchor.segment, p_B) * basis_B);
 }
 
-void UnitRouter::setGuard(const PointGuide& guide, const PathPoint& naive, UnitProblem::Point& point) const {
+/// The bone that a via point glides on, where it is nearest now. Clearances are measured in the reference, where the
+/// point is displaced by moved_B; the surface there is carried over.
+void UnitRouter::setGuard(std::size_t unit, std::size_t p, const std::vector<Anchor>& anchors,
+                          UnitProblem::Point& point) const {
+  const PointGuide& guide = prepared_.guides(unit)[p];
+  const auto& reference_anchors = reference_.musculature.units[unit].path[p].anchors;
+  const auto on_bone = std::ranges::find(reference_anchors, guide.surface_segment, &Anchor::segment);
+  const auto surface_segment = static_cast<std::size_t>(guide.surface_segment);
+  const auto moved_in =
+      static_cast<std::size_t>(reference_anchors[static_cast<std::size_t>(guide.heaviest_anchor)].segment);
+  double clearance_m = guide.clearance_m;
+  Eigen::Vector3d surface_B = guide.surface_B;
+  if (!point.moved_B.isZero(0)) {
+    const auto& zero = prepared_.poses().atZero();
+    const Eigen::Vector3d p_B =
+        on_bone->p_B + zero[surface_segment].linear().transpose() * (zero[moved_in].linear() * point.moved_B);
+    const auto nearest = prepared_.bones().bones()[static_cast<std::size_t>(guide.bone)].distance.nearest(p_B);
+    clearance_m = nearest.distance_m;
+    surface_B = nearest.point;
+  }
   const auto& X_WB = poses_.atZero();
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-  for (const Anchor& a : naive.anchors) p_W += a.weight * (X_WB[static_cast<std::size_t>(a.segment)] * a.p_B);
-  const Eigen::Vector3d surface_W = X_WB[static_cast<std::size_t>(guide.surface_segment)] *
-                                    deform(reference_.skeleton, shape_, guide.surface_segment, guide.surface_B);
-  const Eigen::Vector3d away_W = (p_W - surface_W) * (guide.clearance_m < 0 ? -1 : 1);
+  for (const Anchor& a : anchors) p_W += a.weight * (X_WB[static_cast<std::size_t>(a.segment)] * a.p_B);
+  const Eigen::Vector3d surface_W =
+      X_WB[surface_segment] * deform(reference_.skeleton, shape_, guide.surface_segment, surface_B);
+  const Eigen::Vector3d away_W = (p_W - surface_W) * (clearance_m < 0 ? -1 : 1);
   if (away_W.norm() < 1e-6) return;
   point.outward_W = away_W.normalized();
+  // What lay inside in the reference may stay as deep as it is.
+  point.slack_m = 0;
   if (guide.clearance_m > 0)
-    point.slack_m = std::max(0.0, away_W.norm() - std::min(guide.clearance_m, kLeastClearance_m));
+    point.slack_m =
+        (clearance_m < 0 ? -away_W.norm() : away_W.norm()) - std::min(guide.clearance_m, kLeastClearance_m);
+  if (point.moved_B.isZero(0)) point.slack_m = std::max(0.0, point.slack_m);
 }
 
 /// `from` with its points displaced by x. A via point is displaced in the new body; an attachment slides on the
@@ -92,6 +115,8 @@ UnitRouter::Place UnitRouter::moved(std::size_t i, const Place& from, const Eige
       point.slack_m += before.outward_W.dot(d_W);
       for (Anchor& anchor : anchors)
         anchor.p_B += poses_.atZero()[static_cast<std::size_t>(anchor.segment)].linear().transpose() * d_W;
+      constexpr double kFlat_m = 0.001;  // for so far a bone is taken for flat
+      if (prepared_.guides(i)[p].surface_segment >= 0 && d_W.norm() > kFlat_m) setGuard(i, p, anchors, point);
     }
     problem.movePoint(p, anchors, point);
   }

@@ -31,7 +31,7 @@ class UnitRouter {
   UnitProblem::Point pointOf(std::size_t unit, std::size_t p, const PathPoint& naive) const;
   void setBasis(const Anchor& anchor, const Eigen::Vector3d& p_B, const Eigen::Matrix3d& basis_B,
                 UnitProblem::Point& point) const;
-  void setGuard(const PointGuide& guide, const PathPoint& naive, UnitProblem::Point& point) const;
+  void setGuard(std::size_t unit, std::size_t p, const std::vector<Anchor>& anchors, UnitProblem::Point& point) const;
   Place moved(std::size_t i, const Place& from, const Eigen::VectorXd& x, UnitProblem& problem) const;
   void slide(std::size_t unit, std::size_t p, UnitProblem::Point& point, Anchor& anchor) const;
   Place descended(std::size_t i, const Place& naive, UnitProblem& problem, int& iterations,
