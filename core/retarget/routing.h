@@ -32,7 +32,7 @@ struct RoutingWeights {
   double via_1_m2 = 100;          ///< a via point that moves by 1 cm costs 0.01 ...
   double attachment_1_m2 = 5000;  ///< ... an attachment that slides on its bone by 1 cm costs 0.5 ...
   double inside_1_m2 = 20000;     ///< ... and 1 cm into the bone that a via point glides on costs 2
-  double reversal = 10000;        ///< of a slope against the reference's, squared
+  double reversal = 3000;         ///< of a step against the reference, in shares of its range, squared
   friend bool operator==(const RoutingWeights&, const RoutingWeights&) = default;
 };
 

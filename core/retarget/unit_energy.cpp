@@ -128,18 +128,23 @@ double UnitProblem::addCurve(std::size_t motion, double weight) const {
   return share * off.squaredNorm();
 }
 
-/// Steps from sample to sample that go against a step that matters in the reference.
+/// Steps from sample to sample that go against a step that matters in the reference, or have nearly vanished.
 template <UnitProblem::Order kOrder>
 double UnitProblem::addReversals(std::size_t motion) const {
   const double* wanted = &reference_->lengths[motion * kRoutingSamples];
   const double matters = kReversalShare * reference_->features[motion].range();
-  const double weight = weights_.reversal * motion_weight_[motion] * reference_->significance[motion];
+  const double range = reference_->features[motion].range();
+  const double weight =
+      range > 0 ? weights_.reversal * motion_weight_[motion] * reference_->significance[motion] / (range * range) : 0;
+  constexpr double kLeastStep = 0.1;  // of the reference's: a price that sets in at 0 would be met just beyond it
   double energy = 0;
   for (int s = 0; s + 1 < kRoutingSamples; ++s) {
     const double step = wanted[s + 1] - wanted[s];
     if (std::abs(step) < matters) continue;
     const double sign = step > 0 ? 1 : -1;
-    const double against = sign * (lengths_[static_cast<std::size_t>(s) + 1] - lengths_[static_cast<std::size_t>(s)]);
+    const double against =
+        sign * (lengths_[static_cast<std::size_t>(s) + 1] - lengths_[static_cast<std::size_t>(s)]) -
+        kLeastStep * std::abs(step);
     if (against >= 0) continue;
     energy += weight * against * against;
     if (kOrder != Order::Value && changesLength(motion)) {

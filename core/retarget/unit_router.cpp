@@ -166,8 +166,8 @@ Minimum UnitRouter::bestOfStarts(const UnitProblem& problem, double slide_1_m2, 
 /// and at what price the next round may slide.
 UnitRouter::Place UnitRouter::solved(std::size_t i, const Place& naive, UnitProblem& problem, int& iterations,
                                      const std::stop_token& stop) const {
-  constexpr int kMostRounds = 10, kMostIterations = 10;
-  constexpr double kTolerance = 1e-5, kLastTolerance = 1e-6;  // of the energy
+  constexpr int kMostRounds = 8, kMostIterations = 10;
+  constexpr double kTolerance = 1e-4, kLastTolerance = 1e-6;  // of the energy
   constexpr double kGood = 0.75, kPoor = 0.25;                // of what was hoped for
   constexpr double kFarther = 0.2, kNearer = 8;               // factors on the price
   constexpr double kFirstPrice_1_m2 = 20;                     // of the energy: a slide of 1 cm costs 0.2 % of it
