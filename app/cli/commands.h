@@ -33,6 +33,8 @@ void addAuditCommand(CLI::App& model, Commands& commands);
 void addMomentArmsCommand(CLI::App& model, Commands& commands);
 void addPictureCommand(CLI::App& model, Commands& commands);
 void addReplaceBonesCommand(CLI::App& model, Commands& commands);
+void addShapeCommand(CLI::App& model, Commands& commands);
+void addPhysicsCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);

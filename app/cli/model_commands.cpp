@@ -100,6 +100,8 @@ void addModelCommands(Commands& commands) {
   addMomentArmsCommand(model, commands);
   addPictureCommand(model, commands);
   addReplaceBonesCommand(model, commands);
+  addShapeCommand(model, commands);
+  addPhysicsCommand(model, commands);
 }
 
 }  // namespace sinew

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/muscle/musculature.h"
+#include "core/skeleton/body_description.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape.h"
 #include "core/skeleton/skeleton.h"
@@ -32,6 +33,8 @@ struct Model {
   std::shared_ptr<const std::vector<BoneMesh>> bones = std::make_shared<std::vector<BoneMesh>>();
   /// By unit: what the exam changed (1 if absent). A record; the lengths in `musculature` include it already.
   std::map<std::string, double> length_factors;
+  /// What withPhysics() applied; nullopt: masses follow the volume alone, F_max is the reference's. A record too.
+  std::optional<PhysicsFactors> physics;
 };
 
 /// The reference model from the resource folder (skeleton, landmarks, muscles, bone meshes) with the flexibility of a

@@ -56,6 +56,7 @@ void saveModel(const Model& model, const std::filesystem::path& file) {
             {"skeleton", skeletonToJson(model.skeleton)},
             {"muscles", musculatureToJson(model.musculature, model.skeleton)},
             {"length_factors", factors}};
+  if (model.physics) root["physics"] = physicsFactorsToJson(*model.physics);
   const Json bones = saveSuppliedBones(model, file);
   if (!bones.is_null()) root["bones"] = bones;
   writeFileAtomically(file, jsonText(root));
@@ -66,7 +67,8 @@ Model loadModel(const std::filesystem::path& file, const Model& reference) {
   const Json root = parseJson(readFile(file), where);
   const JsonReader json{root, where};
   json.expectFormat("sinew.model", 1);
-  json.allowOnly({"format", "version", "frames", "name", "shape", "skeleton", "muscles", "length_factors", "bones"});
+  json.allowOnly(
+      {"format", "version", "frames", "name", "shape", "skeleton", "muscles", "length_factors", "physics", "bones"});
   Model model;
   model.name = json["name"].text();
   model.shape = shapeFromJson(json["shape"]);
@@ -76,6 +78,7 @@ Model loadModel(const std::filesystem::path& file, const Model& reference) {
     namedIndex(factor, unit, [&](const std::string& name) { return model.musculature.unitIndex(name); });
     model.length_factors[unit] = factor.positive();
   }
+  if (const auto physics = json.find("physics")) model.physics = physicsFactorsFromJson(*physics);
   model.bones = deformedBones(reference, model.shape, model.skeleton);
   if (const auto bones = json.find("bones"))
     model.bones = withSuppliedBones(*model.bones, *bones, file.parent_path(), model.skeleton);

@@ -43,9 +43,26 @@ PathPoint pointFromJson(const JsonReader& json, const Skeleton& skeleton) {
   return point;
 }
 
+/// The figures that differ from the published ones; null if none do.
+Json curvesToJson(const HillParameters& curves) {
+  Json json;
+  for (const HillField& field : hillFields())
+    if (curves.*field.value != HillParameters{}.*field.value) json[field.name] = curves.*field.value;
+  return json;
+}
+
+HillParameters curvesFromJson(const JsonReader& json) {
+  HillParameters curves;
+  for (const auto& [name, value] : json.members()) {
+    const HillField& field = hillField(name, json.where() + ": " + json.path());
+    curves.*field.value = value.numberIn(field.low, field.high);
+  }
+  return curves;
+}
+
 MusculotendonUnit unitFromJson(const JsonReader& json, const Skeleton& skeleton) {
   json.allowOnly({"name", "group", "max_isometric_force_N", "optimal_fiber_length_m", "tendon_slack_length_m",
-                  "pennation_angle_at_optimal_rad", "source", "path"});
+                  "pennation_angle_at_optimal_rad", "curves", "source", "path"});
   MusculotendonUnit unit;
   unit.name = json["name"].text();
   unit.group = json["group"].text();
@@ -53,6 +70,7 @@ MusculotendonUnit unitFromJson(const JsonReader& json, const Skeleton& skeleton)
   unit.optimal_fiber_length_m = json["optimal_fiber_length_m"].positive();
   unit.tendon_slack_length_m = json["tendon_slack_length_m"].positive();
   unit.pennation_angle_at_optimal_rad = json["pennation_angle_at_optimal_rad"].numberIn(0, 1.5);
+  if (const auto curves = json.find("curves")) unit.curves = curvesFromJson(*curves);
   unit.source = json["source"].text();
   for (const auto& point : json["path"].items()) unit.path.push_back(pointFromJson(point, skeleton));
   if (unit.path.size() < 2) json["path"].fail("two points or more", std::to_string(unit.path.size()));
@@ -74,14 +92,16 @@ Json musculatureToJson(const Musculature& musculature, const Skeleton& skeleton)
       path.push_back(
           {{"role", nameOf(point.role)}, {"bone", point.bone}, {"site", point.site}, {"anchors", anchors}});
     }
-    units.push_back({{"name", unit.name},
-                     {"group", unit.group},
-                     {"max_isometric_force_N", unit.max_isometric_force_N},
-                     {"optimal_fiber_length_m", unit.optimal_fiber_length_m},
-                     {"tendon_slack_length_m", unit.tendon_slack_length_m},
-                     {"pennation_angle_at_optimal_rad", unit.pennation_angle_at_optimal_rad},
-                     {"source", unit.source},
-                     {"path", path}});
+    Json json{{"name", unit.name},
+              {"group", unit.group},
+              {"max_isometric_force_N", unit.max_isometric_force_N},
+              {"optimal_fiber_length_m", unit.optimal_fiber_length_m},
+              {"tendon_slack_length_m", unit.tendon_slack_length_m},
+              {"pennation_angle_at_optimal_rad", unit.pennation_angle_at_optimal_rad},
+              {"source", unit.source},
+              {"path", path}};
+    if (const Json curves = curvesToJson(unit.curves); !curves.is_null()) json["curves"] = curves;
+    units.push_back(std::move(json));
   }
   return units;
 }

@@ -5,24 +5,18 @@
 
 #include "core/error.h"
 #include "core/muscle/musculature.h"
+#include "core/optimization/bracketed_root.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kActiveWidth = 0.45;                    // gamma of Thelen 2003, table 1
-constexpr double kPassiveStrain = 0.6;                   // strain at which passive force is F_max (young adults)
-constexpr double kPassiveShape = 5;                      // k_PE
-constexpr double kTendonStrain = 0.033;                  // strain at which tendon force is F_max
 constexpr double kTendonToeShape = 3;                    // k_toe
 constexpr double kTendonToeForce = 0.33;                 // F_toe
 constexpr double kCurvature = 0.25;                      // A_f
-constexpr double kMaxLengthening = 1.4;                  // F_len
-constexpr double kMaxVelocity_1_s = 10;                  // V_max
 constexpr double kLongest = 1.6, kLongestTendon = 1.03;  // k_m, k_t of Ryu et al.
 
-/// (exp(k x) - 1) / (exp(k) - 1): 0 at 0, 1 at 1.
-CurveValue normalizedExponential(double k, double x) {
-  const double scale = 1 / std::expm1(k);
+/// scale (exp(k x) - 1): 0 at 0; 1 at 1 with scale = 1 / (exp(k) - 1).
+CurveValue scaledExponential(double scale, double k, double x) {
   return {scale * std::expm1(k * x), scale * k * std::exp(k * x)};
 }
 
@@ -43,45 +37,56 @@ CurveValue withRoundedOnset(double x, double width, const Curve& published) {
 
 }  // namespace
 
-CurveValue activeForceLength(double l) {
-  const double f = std::exp(-(l - 1) * (l - 1) / kActiveWidth);
-  return {f, -2 * (l - 1) / kActiveWidth * f};
+namespace {
+const HillCurves& published() {
+  static const HillCurves curves{HillParameters{}};
+  return curves;
+}
+}  // namespace
+
+HillCurves::HillCurves(const HillParameters& parameters)
+    : p_{parameters}, passive_scale_{1 / std::expm1(parameters.passive_shape)} {}
+
+CurveValue HillCurves::active(double l) const {
+  const double f = std::exp(-(l - 1) * (l - 1) / p_.active_width);
+  return {f, -2 * (l - 1) / p_.active_width * f};
 }
 
-CurveValue passiveForceLength(double l) {
-  const auto published = [](double x) { return normalizedExponential(kPassiveShape, x); };
-  const CurveValue f = withRoundedOnset((l - 1) / kPassiveStrain, 0.05, published);
-  return {f.value, f.slope / kPassiveStrain};
+CurveValue HillCurves::passive(double l) const {
+  const auto exponential = [&](double x) { return scaledExponential(passive_scale_, p_.passive_shape, x); };
+  const CurveValue f = withRoundedOnset((l - 1) / p_.passive_strain, 0.05, exponential);
+  return {f.value, f.slope / p_.passive_strain};
 }
 
-CurveValue tendonForceLength(double l_t) {
+CurveValue HillCurves::tendon(double l_t) const {
   // The toe ends where the slopes of both pieces meet; Thelen's rounded figures are 0.609 and 1.712.
   static const double toe_slope = kTendonToeForce * kTendonToeShape / -std::expm1(-kTendonToeShape);
   static const double toe_end = toe_slope / (toe_slope + 1 - kTendonToeForce);
   static const double linear_slope = (1 - kTendonToeForce) / (1 - toe_end);
-  const double x = (l_t - 1) / kTendonStrain;
+  static const double toe_scale = 1 / std::expm1(kTendonToeShape);
+  const double x = (l_t - 1) / p_.tendon_strain;
   CurveValue f;
   if (x > toe_end) {
     f = {kTendonToeForce + linear_slope * (x - toe_end), linear_slope};
   } else {
     f = withRoundedOnset(x / toe_end, 0.05, [](double s) {
-      const CurveValue toe = normalizedExponential(kTendonToeShape, s);
+      const CurveValue toe = scaledExponential(toe_scale, kTendonToeShape, s);
       return CurveValue{kTendonToeForce * toe.value, kTendonToeForce * toe.slope};
     });
     f.slope /= toe_end;
   }
-  return {f.value, f.slope / kTendonStrain};
+  return {f.value, f.slope / p_.tendon_strain};
 }
 
-CurveValue forceVelocity(double velocity_1_s, double activation) {
-  const double fastest = (0.25 + 0.75 * activation) * kMaxVelocity_1_s;
+CurveValue HillCurves::velocity(double velocity_1_s, double activation) const {
+  const double fastest = (0.25 + 0.75 * activation) * p_.max_velocity_1_s;
   const double v = velocity_1_s / fastest;
   const auto shortening = [](double u) {
     const double d = 1 - u / kCurvature;
     return CurveValue{(1 + u) / d, (1 + 1 / kCurvature) / (d * d)};
   };
-  const auto lengthening = [](double u) {
-    const double k = 2 + 2 / kCurvature, rise = kMaxLengthening - 1, d = k * u + rise;
+  const auto lengthening = [rise = p_.max_lengthening - 1](double u) {
+    const double k = 2 + 2 / kCurvature, d = k * u + rise;
     return CurveValue{1 + k * u * rise / d, k * rise * rise / (d * d)};
   };
   constexpr double kIsometricRound = 0.02, kFastestRound = 0.1;  // of the fastest velocity
@@ -100,42 +105,38 @@ CurveValue forceVelocity(double velocity_1_s, double activation) {
   return {f.value, f.slope / fastest};
 }
 
+CurveValue activeForceLength(double l) {
+  return published().active(l);
+}
+CurveValue passiveForceLength(double l) {
+  return published().passive(l);
+}
+CurveValue tendonForceLength(double l_t) {
+  return published().tendon(l_t);
+}
+CurveValue forceVelocity(double velocity_1_s, double activation) {
+  return published().velocity(velocity_1_s, activation);
+}
+
 double longestLength_m(const MusculotendonUnit& unit) {
-  return kLongest * unit.optimal_fiber_length_m + kLongestTendon * unit.tendon_slack_length_m;
+  constexpr HillParameters kPublished;
+  const HillParameters& own = unit.curves;
+  const double fiber = own.passive_strain == kPublished.passive_strain ? kLongest : 1 + own.passive_strain;
+  const double tendon = own.tendon_strain == kPublished.tendon_strain
+                            ? kLongestTendon
+                            : 1 + (kLongestTendon - 1) * own.tendon_strain / kPublished.tendon_strain;
+  return fiber * unit.optimal_fiber_length_m + tendon * unit.tendon_slack_length_m;
 }
-
-namespace {
-
-/// Root in [low, high] of an imbalance that is <= 0 at low and >= 0 at high: Newton, bisected where it leaves the
-/// bracket or gains too little.
-template <class Function>
-double bracketedRoot(double low, double high, const Function& imbalance) {
-  double x = 0.5 * (low + high);
-  double last_width = high - low;
-  for (int i = 0; i < 100 && high - low > 1e-14; ++i) {
-    const CurveValue g = imbalance(x);
-    if (g.value == 0) return x;
-    (g.value < 0 ? low : high) = x;
-    double next = x - g.value / g.slope;
-    const bool stalls = i % 4 == 3 && high - low > 0.5 * last_width;
-    if (i % 4 == 3) last_width = high - low;
-    if (!(next > low && next < high) || stalls) next = 0.5 * (low + high);
-    if (std::abs(next - x) < 1e-14) return next;
-    x = next;
-  }
-  return x;
-}
-
-}  // namespace
 
 FiberState equilibrium(const MusculotendonUnit& unit, double length_m, double activation) {
   require(activation >= 0 && activation <= 1, "equilibrium: activation in [0, 1]");
   const double l0 = unit.optimal_fiber_length_m, slack = unit.tendon_slack_length_m;
   const double cosine = std::cos(unit.pennation_angle_at_optimal_rad);
+  const HillCurves curves = unit.curves == HillParameters{} ? published() : HillCurves{unit.curves};
   const double taut = (length_m - slack) / (l0 * cosine);  // normalised fibre length with the tendon just slack
-  const auto tendon = [&](double l) { return tendonForceLength((length_m - l * l0 * cosine) / slack); };
+  const auto tendon = [&](double l) { return curves.tendon((length_m - l * l0 * cosine) / slack); };
   const auto fiber = [&](double l) {
-    const CurveValue active = activeForceLength(l), passive = passiveForceLength(l);
+    const CurveValue active = curves.active(l), passive = curves.passive(l);
     return CurveValue{(activation * active.value + passive.value) * cosine,
                       (activation * active.slope + passive.slope) * cosine};
   };
@@ -156,7 +157,7 @@ FiberState equilibrium(const MusculotendonUnit& unit, double length_m, double ac
   state.tendon_length_m = std::max(length_m - l * l0 * cosine, slack);
   if (carries) state.force_N = unit.max_isometric_force_N * tendon(l).value;
   state.slack = !(state.force_N > 0);
-  const double active_N = unit.max_isometric_force_N * activation * activeForceLength(l).value * cosine;
+  const double active_N = unit.max_isometric_force_N * activation * curves.active(l).value * cosine;
   state.active_force_N = std::min(state.force_N, active_N);
   return state;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/muscle/hill_parameters.h"
 
 namespace sinew {
 
@@ -11,6 +12,21 @@ namespace sinew {
 struct CurveValue {
   double value = 0;
   double slope = 0;
+};
+
+/// The curves of one unit: HillParameters, with what every evaluation needs computed once. The free functions below
+/// are those of the published parameters.
+class HillCurves {
+ public:
+  explicit HillCurves(const HillParameters& parameters);
+  CurveValue active(double normalized_fiber_length) const;
+  CurveValue passive(double normalized_fiber_length) const;
+  CurveValue tendon(double normalized_tendon_length) const;
+  CurveValue velocity(double normalized_fiber_velocity, double activation) const;
+
+ private:
+  HillParameters p_;
+  double passive_scale_;
 };
 
 /// Active force-length: Gaussian exp(-(l - 1)^2 / 0.45).
@@ -43,8 +59,9 @@ struct FiberState {
 /// arguments.
 FiberState equilibrium(const MusculotendonUnit& unit, double musculotendon_length_m, double activation);
 
-/// Longest length that the unit allows, 1.6 l0 + 1.03 l_slack (Ryu et al., Muscle-induced range of motion): its fibre
-/// is at the strain where passive force reaches F_max.
+/// Longest length that the unit allows, k_m l0 + k_t l_slack with k_m = 1.6, k_t = 1.03 (Ryu et al., Muscle-induced
+/// range of motion): its fibre is at the strain where passive force reaches F_max. With edited curves k_m is 1 + the
+/// passive strain, and k_t keeps its share 0.03 / 0.033 of the tendon strain.
 double longestLength_m(const MusculotendonUnit& unit);
 
 }  // namespace sinew

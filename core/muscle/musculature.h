@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/muscle/hill_parameters.h"
+
 namespace sinew {
 
 /// A path point hangs on one or more segments (linear blend skinning): p_W = sum_j weight_j X_WBj p_Bj.
@@ -30,6 +32,7 @@ struct MusculotendonUnit {
   double optimal_fiber_length_m = 0;
   double tendon_slack_length_m = 0;
   double pennation_angle_at_optimal_rad = 0;
+  HillParameters curves;        ///< Thelen's unless a person edited them
   std::vector<PathPoint> path;  ///< origin, via points, insertion
   std::string source;           ///< of the physiological figures
 };

@@ -1,8 +1,11 @@
 #include "core/skeleton/bone_field.h"
 
+#include <numbers>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/skeleton/deformed_inertia.h"
+#include "core/skeleton/field_jets_internal.h"
 
 namespace sinew {
 namespace field {
@@ -23,69 +26,59 @@ Kind kindOf(const std::string& segment_name) {
 
 namespace {
 
-/// Size ratios along X, Y, Z that stand for the deformation in mass and inertia.
-Eigen::Vector3d meanScale(const std::vector<double>& all, const std::string& segment) {
-  using namespace field;
-  const double* side = &all[kSideBegin + (sideSign(segment) < 0 ? kSideCount : 0)];
-  const auto limb = [&](int bone) -> Eigen::Vector3d {
-    const double across = (side[bone + kProximalScale] + side[bone + kDistalScale]) / 2;
-    return {across, side[bone + kElongation], across};
+/// A bone below this elongation whose heads are larger still is no bone any more. Larger heads on a longer bone are
+/// odd, but a shape.
+constexpr double kLeastElongation = 0.38;
+
+void requireLongerThanHeads(const std::string& bone, const LimbBoneShape& limb) {
+  const double heads = (limb.proximal_scale + limb.distal_scale) / 2;
+  if (limb.elongation < kLeastElongation && limb.elongation < kLeastElongation * heads)
+    throw InputError{{"shape", bone + ".elongation",
+                      "a bone longer than its two heads; reduce proximal_scale and distal_scale with it",
+                      std::to_string(limb.elongation)}};
+}
+
+/// The two turns of the femur in the frontal plane bring points at its sides together. Torsion only shears, and the
+/// other fields cannot fold.
+void requireUnfolded(const Skeleton& reference, const ShapeParameters& shape, int side) {
+  const LimbBoneShape& femur = shape.sides[std::size_t(side)].femur;
+  if (femur.neck_shaft_rad == 0 && femur.varus_rad == 0) return;
+  ShapeParameters straight = shape;
+  straight.sides[std::size_t(side)].femur.neck_shaft_rad = straight.sides[std::size_t(side)].femur.varus_rad = 0;
+  const auto bent_jets = field::pointJets(toVector(shape)), straight_jets = field::pointJets(toVector(straight));
+  const field::Place place{field::Kind::Femur, side == 1};
+  const auto check = [&](double u, double z, const char* parameter, double angle_rad) {
+    constexpr double kLeastShare = 0.1;  // of the volume that it has without the two angles
+    for (const double x : {-0.03, 0.03}) {
+      const Eigen::Vector3d p{x, -u, side == 0 ? z : -z};
+      if (field::jacobianAt(reference, bent_jets, place, p).d_point.determinant() <
+          kLeastShare * field::jacobianAt(reference, straight_jets, place, p).d_point.determinant())
+        throw InputError{{"shape", std::string{side == 0 ? "femur_r." : "femur_l."} + parameter,
+                          "an angle that does not fold the bone, given its elongation",
+                          std::to_string(angle_rad * 180 / std::numbers::pi) + " deg"}};
+    }
   };
-  switch (kindOf(segment)) {
-    case Kind::Pelvis:
-      return {all[kPelvisDepth], all[kPelvisHeight], all[kPelvisWidth]};
-    case Kind::Femur:
-      return limb(kFemur);
-    case Kind::Tibia:
-      return limb(kTibia);
-    case Kind::Humerus:
-      return limb(kHumerus);
-    case Kind::Ulna:
-      return limb(kUlna);
-    case Kind::Lumbar:
-    case Kind::Thorax:
-      return {all[kTrunkExpansion], all[kTrunkElongation], all[kTrunkExpansion]};
-    case Kind::Neck:
-      return {1, all[kNeckElongation], 1};
-    case Kind::Head:
-      return Eigen::Vector3d::Constant(all[kHeadScale]);
-    case Kind::Scapula:
-      return Eigen::Vector3d::Constant(all[kTrunkExpansion]);
-    case Kind::Foot:
-      return Eigen::Vector3d::Constant(side[kFoot]);
-    case Kind::Hand:
-      return Eigen::Vector3d::Constant(side[kHand]);
-    default:
-      return Eigen::Vector3d::Ones();  // driven bodies carry no mass
+  const field::LimbReference& r = field::limbReference(field::kFemur);
+  constexpr int kSteps = 12;
+  constexpr double kInside_m = -0.02, kTrochanter_m = 0.075,
+                   kCondyle_m = 0.05;  // extent of the bone, lateral positive
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = double(i) / kSteps;
+    for (const double z : {kInside_m, kTrochanter_m})
+      check(r.neck_begin + t * (r.neck_end - r.neck_begin), z, "neck_shaft", femur.neck_shaft_rad);
+    for (const double z : {-kCondyle_m, kCondyle_m})
+      check(r.varus_begin + t * (r.distal_begin - r.varus_begin), z, "varus", femur.varus_rad);
   }
 }
 
-/// Mass with the volume; second moments of mass with the squared size along each axis.
-void scaleInertia(Segment& segment, const Eigen::Vector3d& scale) {
-  const double ratio = scale.prod();
-  segment.mass_kg *= ratio;
-  const Eigen::Vector3d inertia = segment.inertia_B_kgm2.diagonal();
-  const Eigen::Vector3d moments =
-      ((Eigen::Vector3d::Constant(inertia.sum() / 2) - inertia).array() * scale.array().square() * ratio).matrix();
-  segment.inertia_B_kgm2 = (Eigen::Vector3d::Constant(moments.sum()) - moments).asDiagonal();
-}
-
-void requireUprightShafts(const ShapeParameters& shape) {
+void requireSound(const Skeleton& reference, const ShapeParameters& shape) {
   for (int i = 0; i < 2; ++i) {
-    const SideShape& s = shape.sides[i];
-    const std::pair<const char*, const LimbBoneShape*> limbs[] = {
-        {"femur", &s.femur}, {"tibia", &s.tibia}, {"humerus", &s.humerus}, {"ulna", &s.ulna}};
-    const int bones[] = {field::kFemur, field::kTibia, field::kHumerus, field::kUlna};
-    for (int b = 0; b < 4; ++b) {
-      const LimbBoneShape& limb = *limbs[b].second;
-      const double p[] = {limb.elongation, limb.proximal_scale, limb.distal_scale};
-      const double stretch = field::shaftStretch(field::limbReference(bones[b]), p);
-      constexpr double kLeastStretch = 0.1;  // a shaft of a tenth of its length is no bone any more
-      if (stretch < kLeastStretch)
-        throw InputError{{"shape", std::string{limbs[b].first} + (i == 0 ? "_r" : "_l") + ".elongation",
-                          "a bone longer than its two heads; reduce proximal_scale and distal_scale with it",
-                          std::to_string(limb.elongation)}};
-    }
+    const SideShape& s = shape.sides[std::size_t(i)];
+    const char* suffix = i == 0 ? "_r" : "_l";
+    for (const auto& [bone, limb] : {std::pair{"femur", &s.femur}, std::pair{"tibia", &s.tibia},
+                                     std::pair{"humerus", &s.humerus}, std::pair{"ulna", &s.ulna}})
+      requireLongerThanHeads(std::string{bone} + suffix, *limb);
+    requireUnfolded(reference, shape, i);
   }
 }
 
@@ -93,16 +86,13 @@ void requireUprightShafts(const ShapeParameters& shape) {
 
 Skeleton deformedSkeleton(const Skeleton& reference, const ShapeParameters& shape) {
   validate(shape);
-  requireUprightShafts(shape);
+  requireSound(reference, shape);
   const std::vector<double> all = toVector(shape);
   Skeleton s = reference;
   for (int j = 0; j < static_cast<int>(s.joints.size()); ++j)
     s.joints[j].X_PJ = deformedJointFrame(reference, all, j);
   for (auto& landmark : s.landmarks) landmark.p_BL = deform(reference, all, landmark.segment, landmark.p_BL);
-  for (int i = 0; i < s.movingSegmentCount(); ++i) {
-    s.segments[i].p_BCom = deform(reference, all, i, s.segments[i].p_BCom);
-    scaleInertia(s.segments[i], meanScale(all, s.segments[i].name));
-  }
+  s.segments = deformedInertias(reference, all);
   for (int side = 0; side < 2; ++side) {
     PatellaDriver& patella = s.patellae[side];
     const Joint& knee = s.joints[s.coordinates[patella.knee_coordinate].joint];

@@ -74,7 +74,8 @@ ShapeParameters shapeFromVector(const std::vector<double>& values) {
 void validate(const ShapeParameters& shape) {
   forEachParameter(shape, [](const std::string& name, double value) {
     const bool angle = isAngle(name);
-    const double low = angle ? -std::numbers::pi / 2 : 0.2, high = angle ? std::numbers::pi / 2 : 4;
+    const double low = angle ? -kGreatestShapeAngle_rad : kLeastShapeRatio;
+    const double high = angle ? kGreatestShapeAngle_rad : kGreatestShapeRatio;
     if (!(value >= low && value <= high))
       throw InputError{{"shape", name, angle ? "an angle within +-90 deg" : "a ratio from 0.2 to 4",
                         angle ? std::to_string(value * 180 / std::numbers::pi) + " deg" : std::to_string(value)}};

@@ -39,8 +39,10 @@ const std::vector<std::string>& shapeParameterNames();
 std::vector<double> toVector(const ShapeParameters& shape);
 ShapeParameters shapeFromVector(const std::vector<double>& values);
 
-/// @throws InputError, naming the parameter, for a value outside what the deformation can represent (ratios 0.2-4,
-/// angles within 90 deg).
+/// What a parameter may be at all; combinations that turn a bone inside out are refused by deformedSkeleton().
+inline constexpr double kLeastShapeRatio = 0.2, kGreatestShapeRatio = 4, kGreatestShapeAngle_rad = 1.5707963267948966;
+
+/// @throws InputError, naming the parameter, for a value outside these bounds (NaN included).
 void validate(const ShapeParameters& shape);
 
 }  // namespace sinew

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/error.h"
 #include "core/muscle/musculature.h"
 
 namespace sinew {
@@ -135,6 +136,66 @@ TEST(Equilibrium, SurvivesLengthsFarOutsideTheBody) {
     EXPECT_GT(s.force_N, 3000);
   }
   EXPECT_NEAR(longestLength_m(soleus()), 1.6 * 0.044 + 1.03 * 0.28, 1e-15);
+}
+
+MusculotendonUnit withCurve(double HillParameters::*field, double value) {
+  MusculotendonUnit unit = soleus();
+  unit.curves.*field = value;
+  return unit;
+}
+
+TEST(EditedCurves, AreTheFormulasWithTheirOwnFigures) {
+  HillParameters p{.active_width = 0.6, .passive_strain = 0.4, .passive_shape = 4, .tendon_strain = 0.05};
+  p.max_velocity_1_s = 6, p.max_lengthening = 1.8;
+  const HillCurves curves{p};
+  EXPECT_NEAR(curves.active(1.3).value, std::exp(-0.09 / 0.6), 1e-15);
+  EXPECT_NEAR(curves.passive(1.4).value, 1, 1e-15);
+  EXPECT_NEAR(curves.passive(1.2).value, std::expm1(2) / std::expm1(4), 1e-15);
+  EXPECT_NEAR(curves.tendon(1.05).value, 1, 1e-14);
+  EXPECT_NEAR(curves.velocity(-6, 1).value, 0, 1e-15);
+  EXPECT_NEAR(curves.velocity(1e7, 1).value, 1.8, 1e-4);
+  expectSmooth([&](double l) { return curves.active(l); }, 0.2, 2, 5);
+  expectSmooth([&](double l) { return curves.passive(l); }, 0.9, 1.7, 100);
+  expectSmooth([&](double l) { return curves.tendon(l); }, 0.99, 1.08, 1e5);
+  expectSmooth([&](double v) { return curves.velocity(v, 1); }, -8, 5, 100);
+}
+
+TEST(EditedCurves, TheDefaultIsThelenBitByBit) {
+  const HillCurves curves{HillParameters{}};
+  for (double x = 0.3; x < 2; x += 0.01) {
+    EXPECT_EQ(curves.active(x).value, activeForceLength(x).value);
+    EXPECT_EQ(curves.passive(x).value, passiveForceLength(x).value);
+    EXPECT_EQ(curves.tendon(x).value, tendonForceLength(x).value);
+  }
+}
+
+TEST(EditedCurves, ChangeTheEquilibriumTheRightWay) {
+  const double stretched_m = 1.35 * 0.044 + 0.284;
+  const double before_N = equilibrium(soleus(), stretched_m, 0).force_N;
+  EXPECT_GT(before_N, 0);
+  EXPECT_GT(equilibrium(withCurve(&HillParameters::passive_strain, 0.4), stretched_m, 0).force_N, 1.5 * before_N);
+  EXPECT_LT(equilibrium(withCurve(&HillParameters::tendon_strain, 0.08), stretched_m, 0).force_N, before_N);
+  const FiberState wide = equilibrium(withCurve(&HillParameters::active_width, 0.9), stretched_m, 1);
+  EXPECT_GT(wide.active_force_N, equilibrium(soleus(), stretched_m, 1).active_force_N);
+}
+
+TEST(EditedCurves, LongestLengthFollowsTheStrains) {
+  EXPECT_EQ(longestLength_m(withCurve(&HillParameters::active_width, 0.9)), longestLength_m(soleus()));
+  EXPECT_NEAR(longestLength_m(withCurve(&HillParameters::passive_strain, 0.4)), 1.4 * 0.044 + 1.03 * 0.28, 1e-15);
+  EXPECT_NEAR(longestLength_m(withCurve(&HillParameters::tendon_strain, 0.066)), 1.6 * 0.044 + 1.06 * 0.28, 1e-15);
+}
+
+TEST(EditedCurves, RefusesUnknownNamesAndBadValues) {
+  const Musculature muscles{{soleus()}};
+  const auto refuses = [&](const CurveEdit& edit) {
+    EXPECT_THROW(withCurves(muscles, {&edit, 1}), InputError) << edit.units << " " << edit.field << " " << edit.value;
+  };
+  refuses({"soleus", "activ_width", 0.5});
+  refuses({"soles", "active_width", 0.5});
+  refuses({"soleus", "active_width", 0});
+  refuses({"soleus", "active_width", std::nan("")});
+  refuses({"soleus", "passive_strain", -0.6});
+  refuses({"soleus", "max_lengthening", 0.9});
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+#include "core/model/physical_scaling.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/muscle/muscle_path.h"
+#include "core/muscle/unit_selection.h"
+#include "core/skeleton/deformed_inertia.h"
+#include "core/skeleton/field_derivatives.h"
+
+namespace sinew {
+namespace {
+
+/// Change of a small area across the direction t_W at one path point.
+double areaScale(const Skeleton& reference, const PathPoint& point, const Eigen::Vector3d& t_W,
+                 const std::vector<RigidTransform>& X_WB, const std::vector<double>& parameters) {
+  double scale = 0;
+  for (const Anchor& a : point.anchors) {
+    const Eigen::Matrix3d J = fieldJacobian(reference, parameters, a.segment, a.p_B);
+    const Eigen::Vector3d t_B = X_WB[std::size_t(a.segment)].linear().transpose() * t_W;
+    scale += a.weight * J.determinant() * J.transpose().partialPivLu().solve(t_B).norm();
+  }
+  return scale;
+}
+
+double crossSectionScale(const Skeleton& reference, const MusculotendonUnit& unit,
+                         const std::vector<double>& parameters, const std::vector<RigidTransform>& X_WB) {
+  const auto points = pathPoints(unit, X_WB);
+  double sum = 0, length_m = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double piece_m = (points[i + 1] - points[i]).norm();
+    if (!(piece_m > 0)) continue;
+    const Eigen::Vector3d t_W = (points[i + 1] - points[i]) / piece_m;
+    for (const std::size_t end : {i, i + 1})
+      sum += 0.5 * piece_m * areaScale(reference, unit.path[end], t_W, X_WB, parameters);
+    length_m += piece_m;
+  }
+  return length_m > 0 ? sum / length_m : 1;
+}
+
+/// Factor that takes the mass of the deformed volume to the wanted one.
+double massFactor(const std::string& segment, double deformed_kg, double reference_kg,
+                  const PhysicsFactors& factors) {
+  const auto factor = factors.mass_factors.find(segment), ratio = factors.mass_ratios.find(segment);
+  if (ratio != factors.mass_ratios.end()) return ratio->second * reference_kg / deformed_kg;
+  return factor != factors.mass_factors.end() ? factor->second : 1;
+}
+
+void checkSegments(const Skeleton& skeleton, const PhysicsFactors& factors) {
+  for (const auto* named : {&factors.mass_factors, &factors.mass_ratios})
+    for (const auto& [segment, factor] : *named)
+      if (skeleton.segmentIndex(segment) >= skeleton.movingSegmentCount())
+        throw InputError{{"mass", segment, "a segment that carries mass", "a driven one"}};
+  for (const auto& [segment, factor] : factors.mass_factors)
+    if (factors.mass_ratios.contains(segment)) throw InputError{{"mass", segment, "a factor or a ratio", "both"}};
+}
+
+}  // namespace
+
+double crossSectionScale(const Skeleton& reference, const MusculotendonUnit& unit,
+                         const std::vector<double>& parameters) {
+  return crossSectionScale(reference, unit, parameters, segmentPoses(reference, zeroPosture(reference)));
+}
+
+Model withPhysics(const Model& model, const Model& reference, const PhysicsFactors& factors) {
+  checkSegments(model.skeleton, factors);
+  const std::vector<double> parameters = toVector(model.shape);
+  Model result = model;
+  result.physics = factors;
+  const auto deformed = deformedInertias(reference.skeleton, parameters);
+  for (int i = 0; i < result.skeleton.movingSegmentCount(); ++i) {
+    Segment& segment = result.skeleton.segments[std::size_t(i)];
+    const auto at = std::size_t(reference.skeleton.segmentIndex(segment.name));
+    const double factor =
+        massFactor(segment.name, deformed[at].mass_kg, reference.skeleton.segments[at].mass_kg, factors);
+    segment.mass_kg = factor * deformed[at].mass_kg;
+    segment.p_BCom = deformed[at].p_BCom;
+    segment.inertia_B_kgm2 = factor * deformed[at].inertia_B_kgm2;
+  }
+  constexpr double kByRule = -1;
+  const auto strength = factorsByUnit(result.musculature, factors.strength_factors, kByRule);
+  const auto X_WB = segmentPoses(reference.skeleton, zeroPosture(reference.skeleton));
+  for (std::size_t i = 0; i < strength.size(); ++i) {
+    MusculotendonUnit& unit = result.musculature.units[i];
+    const MusculotendonUnit& own = reference.musculature.unit(unit.name);
+    unit.max_isometric_force_N =
+        own.max_isometric_force_N *
+        (strength[i] == kByRule ? crossSectionScale(reference.skeleton, own, parameters, X_WB) : strength[i]);
+  }
+  return result;
+}
+
+}  // namespace sinew
