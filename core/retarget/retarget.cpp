@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/model/physical_scaling.h"
 #include "core/muscle/muscle_role.h"
 #include "core/rom/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
@@ -79,6 +80,7 @@ Retargeted retarget(const RetargetReference& reference, const ShapeParameters& s
                     const Job& job) {
   StopWatch watch;
   Retargeted result{.model = deformedModel(reference.model(), shape)};
+  if (options.physics) result.model = withPhysics(result.model, reference.model(), *options.physics);
   result.times.deformation_s = watch.lap_s();
   const Retargeted cancelled{.outcome = Outcome::Cancelled};
 

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/model/model.h"
+#include "core/rom/rom_map.h"
+
+namespace sinew {
+
+/// The hip's range with the knee held at an angle (Ryu et al., ROM Construction: wider with the knee flexed by more
+/// than 90 deg than with the knee straight within 30 deg, because of the hamstrings).
+struct PoseDependenceRow {
+  double knee_flexion_deg = 0;
+  RomMap muscles, with_stops;
+  double flexion_deg = 0;  ///< hip flexion, straight forward, up to which all postures are possible; with stops
+};
+std::vector<PoseDependenceRow> poseDependence(const Model& model, const std::vector<double>& knee_flexions_deg = {
+                                                                      0, 15, 30, 90, 105, 120});
+
+}  // namespace sinew
