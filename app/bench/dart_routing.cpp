@@ -75,12 +75,16 @@ std::vector<double> DartRouting::gradient(std::size_t unit, const Points& x, dou
   return slopes;
 }
 
+double DartRouting::startEnergy(std::size_t unit) {
+  return energies(unit, {Points(naive_.musculature.units[unit].path.size(), Eigen::Vector3d::Zero())}).front();
+}
+
 double DartRouting::descend(std::size_t unit) {
   // As core/retarget/minimize.cpp, descent().
   constexpr int kMostIterations = 200, kMostTrials = 14;
   constexpr double kGrowth = 1.7, kShrink = 0.4, kSufficient = 1e-4, kFlat = 1e-7, kTolerance = 1e-6;
   Points x(naive_.musculature.units[unit].path.size(), Eigen::Vector3d::Zero());
-  double energy = energies(unit, {x}).front(), step_m = 1e-3;
+  double energy = startEnergy(unit), step_m = 1e-3;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const std::vector<double> slopes = gradient(unit, x, energy);
     const double slope = Eigen::Map<const Eigen::VectorXd>(slopes.data(), Eigen::Index(slopes.size())).norm();

@@ -16,6 +16,8 @@ class DartRouting {
   /// `naive`: the new body, points anchored naively.
   DartRouting(const RetargetReference& reference, const Model& naive);
   bool isThere() const { return dart_ != nullptr; }
+  /// The paper's energy of one unit where it starts.
+  double startEnergy(std::size_t unit);
   /// Optimises one unit. @returns the energy reached.
   double descend(std::size_t unit);
 

@@ -1,6 +1,7 @@
 #include "app/bench/retarget_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/bench/dart_routing.h"
@@ -44,8 +45,8 @@ void RetargetRows::addRouting() {
     Model model = *naive;
     return route(reference->model(), reference->routing(), model, {.method = method}).units;
   };
-  const EnergyTotals ours = energyTotals(routed(RetargetMethod::Sinew)),
-                     paper = energyTotals(routed(RetargetMethod::Paper));
+  const std::vector<UnitRouting> solved = routed(RetargetMethod::Sinew);
+  const EnergyTotals ours = energyTotals(solved), paper = energyTotals(routed(RetargetMethod::Paper));
   if (!(ours.end <= paper.end)) throw std::runtime_error{"row 7 is not timed: the descent reaches a lower energy"};
 
   const Workload work{[routed] { routed(RetargetMethod::Sinew); }, 1};
@@ -62,12 +63,17 @@ void RetargetRows::addRouting() {
                              std::to_string(int(units)) + " units measured, the rest extrapolated");
   on_dart.ours = {work.run, units};
   on_dart.items = units;
-  if (dart->isThere())
-    on_dart.peer = Workload{[dart, units] {
-                              for (int k = 0; k < kUnitsOnDart; ++k)
-                                dart->descend(std::size_t((k + 0.5) * units / kUnitsOnDart));
+  if (dart->isThere()) {
+    std::vector<std::size_t> some;
+    for (int k = 0; k < kUnitsOnDart; ++k) some.push_back(std::size_t((k + 0.5) * units / kUnitsOnDart));
+    for (const std::size_t u : some)
+      if (std::abs(dart->startEnergy(u) - solved[u].start.paper({})) > 1e-9 * (1 + solved[u].start.paper({})))
+        throw std::runtime_error{"row 7 is not timed: the energy of " + solved[u].unit + " differs with DART"};
+    on_dart.peer = Workload{[dart, some] {
+                              for (const std::size_t u : some) dart->descend(u);
                             },
                             kUnitsOnDart};
+  }
   rows_.push_back(on_dart);
 }
 

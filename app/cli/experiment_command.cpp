@@ -14,7 +14,7 @@ namespace {
 constexpr double kPngScale = 1.5;
 
 struct ExperimentOptions {
-  std::string name;
+  std::string name, reference = "reference";
   std::filesystem::path folder = "experiments";
   bool quick = false;
 };
@@ -61,9 +61,9 @@ Json written(const Experiment& experiment, const ExperimentReport& report, doubl
     files.push_back(svg.string()), files.push_back(png.string());
   }
   for (const auto& model : report.models) files.push_back(model.string());
-  Json entry{
-      {"name", experiment.name}, {"title", experiment.title}, {"outcome", nameOf(report.outcome)}, {"quick", o.quick},
-      {"seconds", seconds},      {"verdicts", verdicts},      {"result", report.result},           {"files", files}};
+  Json entry{{"name", experiment.name},  {"title", experiment.title}, {"outcome", nameOf(report.outcome)},
+             {"reference", o.reference}, {"quick", o.quick},          {"seconds", seconds},
+             {"verdicts", verdicts},     {"result", report.result},   {"files", files}};
   const auto json = o.folder / (experiment.name + ".json");
   Json document{{"format", "sinew.experiment"}, {"version", 1}};
   document.update(entry);
@@ -75,7 +75,7 @@ Json written(const Experiment& experiment, const ExperimentReport& report, doubl
 ExitStatus runExperiments(const ExperimentOptions& o, Session& session) {
   const auto chosen = chosenExperiments(o.name);
   std::filesystem::create_directories(o.folder);
-  ExperimentContext context{session, o.folder, o.quick};
+  ExperimentContext context{session, o.reference, o.folder, o.quick};
   Json document{{"format", "sinew.experiments"}, {"version", 1}, {"outcome", nameOf(Outcome::Converged)}};
   Json list = Json::array();
   std::vector<Verdict> all;
@@ -114,6 +114,7 @@ void addExperimentCommand(Commands& commands) {
       addCommand(commands.app, "experiment", about + " all", "sinew experiment rom-preservation --out figures");
   command.add_option("NAME", o->name, "experiment, or all")->required();
   command.add_option("--out", o->folder, "folder for JSON, SVG, PNG and models")->capture_default_str();
+  command.add_option("--reference", o->reference, "reference or reference:athlete")->capture_default_str();
   command.add_flag("--quick", o->quick, "few bodies: to see that it runs");
   command.callback(
       [&commands, o] { commands.chosen = [&session = commands.session, o] { return runExperiments(*o, session); }; });

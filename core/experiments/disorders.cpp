@@ -12,10 +12,10 @@ namespace {
 using Poses = std::vector<RigidTransform>;
 
 /// Poses of all segments at the ends of the steps of one motion.
-std::vector<Poses> posesOver(const Skeleton& skeleton, const JointMotion& motion) {
+std::vector<Poses> posesOver(const Skeleton& skeleton, const JointMotion& motion, int steps) {
   std::vector<Poses> poses;
-  for (int s = 0; s <= kDisorderSteps; ++s)
-    poses.push_back(segmentPoses(skeleton, motionPosture(skeleton, motion, double(s) / kDisorderSteps)));
+  for (int s = 0; s <= steps; ++s)
+    poses.push_back(segmentPoses(skeleton, motionPosture(skeleton, motion, double(s) / steps)));
   return poses;
 }
 
@@ -32,7 +32,7 @@ struct StepCount {
 void countReversals(const std::vector<double>& wanted_m, const std::vector<double>& found_m, StepCount& count) {
   const auto [low_m, high_m] = std::ranges::minmax(wanted_m);
   // kReversalShare is of the range for steps of the routing's samples; ours are shorter.
-  const double matters_m = kReversalShare * (high_m - low_m) * (kRoutingSamples - 1) / kDisorderSteps;
+  const double matters_m = kReversalShare * (high_m - low_m) * (kRoutingSamples - 1) / double(wanted_m.size() - 1);
   for (std::size_t s = 0; s + 1 < wanted_m.size(); ++s) {
     const double wanted = wanted_m[s + 1] - wanted_m[s], found = found_m[s + 1] - found_m[s];
     if (std::abs(wanted) < matters_m) continue;
@@ -43,13 +43,14 @@ void countReversals(const std::vector<double>& wanted_m, const std::vector<doubl
 
 }  // namespace
 
-std::vector<double> reversalShares(const RetargetReference& reference, const Model& body) {
+std::vector<double> reversalShares(const RetargetReference& reference, const Model& body, int steps) {
   const auto& routing = reference.routing();
   const auto& units = reference.model().musculature.units;
   std::vector<StepCount> counts(units.size());
   for (std::size_t m = 0; m < routing.motions().size(); ++m) {
     const JointMotion& motion = findMotion(reference.motions(), routing.motions()[m].name);
-    const auto before = posesOver(reference.model().skeleton, motion), now = posesOver(body.skeleton, motion);
+    const auto before = posesOver(reference.model().skeleton, motion, steps),
+               now = posesOver(body.skeleton, motion, steps);
     for (std::size_t u = 0; u < units.size(); ++u) {
       const ReferenceCurves& curves = routing.curves(u);
       const auto at = std::ranges::find(curves.motions, static_cast<int>(m));
@@ -70,8 +71,9 @@ Disorders disorders(const RetargetReference& reference, const DisorderOptions& o
     const ShapeParameters shape = withLimbElongation(elongation);
     const Retargeted body = retarget(reference, shape, {.peak_torque = false}, {.stop = job.stop});
     if (body.outcome != Outcome::Converged) return {.outcome = body.outcome};
-    result.rows.push_back({elongation, reversalShares(reference, deformedModel(reference.model(), shape)),
-                           reversalShares(reference, body.model)});
+    result.rows.push_back({elongation,
+                           reversalShares(reference, deformedModel(reference.model(), shape), options.steps),
+                           reversalShares(reference, body.model, options.steps)});
   }
   result.outcome = Outcome::Converged;
   return result;

@@ -18,6 +18,16 @@ double hipFlexion_deg(const Model& model, double knee_flexion_deg) {
 
 }  // namespace
 
+int forwardCount(const RomMap& map) {
+  int count = 0;
+  for (int polar = 0; polar < RomMap::kPolars; ++polar)
+    for (int azimuth = 0; azimuth < RomMap::kAzimuths; ++azimuth) {
+      if (map.direction_J(polar, azimuth).dot(map.frame.forward_J) <= 0) continue;
+      for (int twist = 0; twist < RomMap::kTwists; ++twist) count += map.valid[RomMap::cell(twist, polar, azimuth)];
+    }
+  return count;
+}
+
 std::vector<PoseDependenceRow> poseDependence(const Model& model, const std::vector<double>& knee_flexions_deg) {
   std::vector<PoseDependenceRow> rows;
   for (const double knee_deg : knee_flexions_deg) {

@@ -14,7 +14,11 @@ struct PoseDependenceRow {
   RomMap muscles, with_stops;
   double flexion_deg = 0;  ///< hip flexion, straight forward, up to which all postures are possible; with stops
 };
-std::vector<PoseDependenceRow> poseDependence(const Model& model, const std::vector<double>& knee_flexions_deg = {
-                                                                      0, 15, 30, 90, 105, 120});
+/// Valid cells whose shaft points forward of the joint: what hip flexors reach and hamstrings limit. (Backward it is
+/// the rectus femoris, which a flexed knee stretches.)
+int forwardCount(const RomMap& map);
+
+std::vector<PoseDependenceRow> poseDependence(const Model& model,
+                                              const std::vector<double>& knee_flexions_deg = {0, 30, 90, 120});
 
 }  // namespace sinew

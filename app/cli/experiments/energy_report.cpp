@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_plot.h"
+#include "app/cli/svg_charts.h"
 #include "app/cli/text_table.h"
 #include "core/experiments/experiment_shapes.h"
 #include "core/experiments/method_comparison.h"
@@ -127,15 +127,15 @@ Json resultJson(const MethodComparison& found, const EnergyVerdict& all, const F
 }
 
 std::string figureOf(const MethodComparison& found) {
-  PlotLine start{"bones alone", {}}, paper{"paper", {}}, sinew{"sinew", {}};
-  std::vector<double> x;
+  BarPanel panel{"share of the start's energy that is left", {}, {{}, {}}};
   for (const BodyComparison& body : found.bodies) {
     const EnergyVerdict e = energyVerdict(found.units, body);
-    x.push_back(double(x.size() + 1));
-    start.y.push_back(e.sum_start), paper.y.push_back(e.sum_paper), sinew.y.push_back(e.sum_sinew);
+    if (e.compared == 0) continue;
+    panel.names.push_back(body.name);
+    panel.values[0].push_back(100 * e.sum_paper / e.sum_start);
+    panel.values[1].push_back(100 * e.sum_sinew / e.sum_start);
   }
-  return plotSvg("Energy of all units: the four characters, then random bodies", "body", x,
-                 {{"energy, all bodies", {start, paper, sinew}}, {"after optimisation", {paper, sinew}}});
+  return barsSvg("Energy of all units after routing", "energy left [%]", {"paper", "sinew"}, {panel}, 60);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace sinew {
 
 const RetargetReference& ExperimentContext::reference() {
   if (!reference_)
-    reference_ = preparedReference(session_, "reference", "sinew experiment",
+    reference_ = preparedReference(session_, reference_name_, "sinew experiment",
                                    {{"format", "sinew.experiments"},
                                     {"version", 1},
                                     {"outcome", nameOf(Outcome::Cancelled)},

@@ -36,8 +36,9 @@ struct ExperimentReport {
 /// What experiments share: the reference and the four characters are made once, when they are first asked for.
 class ExperimentContext {
  public:
-  ExperimentContext(Session& session, std::filesystem::path folder, bool quick)
-      : session_{session}, folder_{std::move(folder)}, quick_{quick} {}
+  /// `reference`: "reference", "reference:athlete".
+  ExperimentContext(Session& session, std::string reference, std::filesystem::path folder, bool quick)
+      : session_{session}, reference_name_{std::move(reference)}, folder_{std::move(folder)}, quick_{quick} {}
 
   Session& session() const { return session_; }
   const std::filesystem::path& folder() const { return folder_; }  ///< for files
@@ -49,6 +50,7 @@ class ExperimentContext {
 
  private:
   Session& session_;
+  std::string reference_name_;
   std::filesystem::path folder_;
   bool quick_;
   std::shared_ptr<const RetargetReference> reference_;

@@ -92,14 +92,19 @@ std::string figureOf(const RomPreservation& found, const RomPreservationOptions&
   std::vector<std::string> columns, rows;
   for (const double torsion : options.torsions_deg) columns.push_back(fixed(torsion, 0));
   for (const double elongation : options.elongations) rows.push_back(fixed(100 * elongation, 0) + " %");
-  std::vector<HeatPanel> panels = {{"naive scaling", {}}, {"retargeted", {}}};
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    for (auto& panel : panels) {
-      auto& values = panel.values.emplace_back();
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        const RomPreservationRow& row = found.rows[r * columns.size() + c];
-        values.push_back(100 * (&panel == &panels[0] ? row.naive : row.retargeted)[0].muscles.ofUnion());
+  std::vector<HeatPanel> panels;
+  for (const bool stops : {false, true})
+    for (const bool naive : {true, false}) {
+      HeatPanel panel{std::string{naive ? "naive" : "retargeted"} + (stops ? ", with stops" : ", muscles alone"), {}};
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        auto& values = panel.values.emplace_back();
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+          const RomPreservationRow& row = found.rows[r * columns.size() + c];
+          const RomErrors& errors = (naive ? row.naive : row.retargeted).front();
+          values.push_back(100 * (stops ? errors.with_stops : errors.muscles).ofUnion());
+        }
       }
+      panels.push_back(std::move(panel));
     }
   const double darkest = 100 * rangeOf(found, true, [](const RomErrors& e) { return e.muscles.ofUnion(); }).most;
   return heatMapSvg("Hip range of motion: cells that differ from the reference [% of those valid in either]",
