@@ -18,7 +18,7 @@ namespace sinew {
 /// The stages of a case, in their order.
 enum class Stage { Images, Calibration, Landmarks, Skeleton, Musculature, Exam, Report };
 inline constexpr std::array kStages = {Stage::Images,      Stage::Calibration, Stage::Landmarks, Stage::Skeleton,
-                                Stage::Musculature, Stage::Exam,        Stage::Report};
+                                       Stage::Musculature, Stage::Exam,        Stage::Report};
 std::string nameOf(Stage stage);   ///< "images", ...: files and command line
 std::string titleOf(Stage stage);  ///< "Images", ...: screen
 /// @throws InputError with the nearest names.
@@ -32,9 +32,9 @@ struct FileReference {
 };
 
 struct Patient {
-  std::string id, name;        ///< never leave the case folder except in the report
-  std::string sex;             ///< "F", "M", "O" or ""
-  std::string birth_date;      ///< ISO 8601 or ""
+  std::string id, name;    ///< never leave the case folder except in the report
+  std::string sex;         ///< "F", "M", "O" or ""
+  std::string birth_date;  ///< ISO 8601 or ""
   std::string diagnosis;
   std::optional<double> height_m, mass_kg;
   friend bool operator==(const Patient&, const Patient&) = default;
@@ -59,14 +59,14 @@ struct StageRecord {
   std::string input_hash;  ///< of everything the stage read; a stage is stale when today's differs
   double seconds = 0;
   Warnings warnings;
-  std::string summary;     ///< key figures in one line, no patient data
+  std::string summary;  ///< key figures in one line, no patient data
   friend bool operator==(const StageRecord&, const StageRecord&) = default;
 };
 
 /// True values of a synthetic patient, kept with the case so that estimates can be compared.
 struct Truth {
-  std::vector<BoneFigure> figures;                 ///< intervals unused
-  std::map<std::string, double> length_factors;    ///< by unit
+  std::vector<BoneFigure> figures;               ///< intervals unused
+  std::map<std::string, double> length_factors;  ///< by unit
   unsigned seed = 0;
 };
 
@@ -84,7 +84,8 @@ struct Case {
   std::optional<BiplanarRig> rig;
   std::optional<Triangulation> landmarks;
   std::optional<SkeletonFit> skeleton;
-  std::optional<FileReference> model;  ///< results/model.json: after musculature and exam
+  std::optional<FileReference> musculature;  ///< retargeted to the skeleton, before the exam; named by its content
+  std::optional<FileReference> model;        ///< results/model.json: after musculature and exam
   std::optional<ExamFit> exam_fit;
   std::optional<FileReference> report;  ///< results/report.pdf
   std::map<Stage, StageRecord> stages;

@@ -122,16 +122,18 @@ Json resultsToJson(const Case& c) {
   return {{"rig", optionalToJson(c.rig, rigToJson)},
           {"landmarks", optionalToJson(c.landmarks, triangulationToJson)},
           {"skeleton", optionalToJson(c.skeleton, skeletonFitToJson)},
+          {"musculature", optionalToJson(c.musculature, referenceToJson)},
           {"model", optionalToJson(c.model, referenceToJson)},
           {"exam_fit", optionalToJson(c.exam_fit, examFitToJson)},
           {"report", optionalToJson(c.report, referenceToJson)}};
 }
 
 void readResults(const JsonReader& json, Case& c) {
-  json.allowOnly({"rig", "landmarks", "skeleton", "model", "exam_fit", "report"});
+  json.allowOnly({"rig", "landmarks", "skeleton", "musculature", "model", "exam_fit", "report"});
   c.rig = optionalFromJson<BiplanarRig>(json, "rig", rigFromJson);
   c.landmarks = optionalFromJson<Triangulation>(json, "landmarks", triangulationFromJson);
   c.skeleton = optionalFromJson<SkeletonFit>(json, "skeleton", skeletonFitFromJson);
+  c.musculature = optionalFromJson<FileReference>(json, "musculature", referenceFromJson);
   c.model = optionalFromJson<FileReference>(json, "model", referenceFromJson);
   c.exam_fit = optionalFromJson<ExamFit>(json, "exam_fit", examFitFromJson);
   c.report = optionalFromJson<FileReference>(json, "report", referenceFromJson);

@@ -31,7 +31,7 @@ StageRun dispatch(Case& c, Stage stage, const PipelineContext& context, const Jo
     case Stage::Skeleton:
       return runSkeleton(c, context, job);
     case Stage::Musculature:
-      return runMusculature(c, context);
+      return runMusculature(c, context, job);
     case Stage::Exam:
       return runExam(c, context, job);
     case Stage::Report:

@@ -8,6 +8,7 @@
 
 #include "clinical/case.h"
 #include "core/model/model.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 
@@ -16,6 +17,8 @@ struct PipelineContext {
   std::filesystem::path resource_dir;
   std::filesystem::path case_dir;
   const Model* reference = nullptr;
+  /// What the musculature is retargeted from, once it is needed. Empty: read from the resources.
+  std::function<std::shared_ptr<const RetargetReference>()> retargeting;
   /// Writes the report PDF; supplied by the application, because it draws. Empty: the report stage says so and fails.
   std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)>
       write_report;
@@ -48,7 +51,11 @@ Case runStage(const Case& c, Stage stage, const PipelineContext& context, const 
 /// The report's inputs are all done and fresh; otherwise why not, one line a stage.
 std::vector<std::string> reasonsAgainstReport(const Case& c);
 
-/// The patient's model: fitted shape, naive anchoring, exam's length factors; as far as the case has got.
-std::optional<Model> patientModel(const Case& c, const Model& reference);
+/// The patient's model as far as the case has got: fitted bones with muscles anchored to them, then the retargeted
+/// muscles, then the exam's length factors.
+/// @throws InputError if the file of the retargeted muscles is missing or changed.
+std::optional<Model> patientModel(const Case& c, const Model& reference, const std::filesystem::path& case_dir);
+/// The same without the exam's length factors. @pre the skeleton is fitted.
+Model modelBeforeExam(const Case& c, const Model& reference, const std::filesystem::path& case_dir);
 
 }  // namespace sinew

@@ -17,10 +17,11 @@ int methodRevision(Stage stage) {
     case Stage::Calibration:
     case Stage::Landmarks:
     case Stage::Skeleton:
-    case Stage::Musculature:
-    case Stage::Exam:
     case Stage::Report:
       return 1;
+    case Stage::Musculature:  // 2: retargeted instead of anchored to the nearest bone
+    case Stage::Exam:
+      return 2;
   }
   return 0;
 }
@@ -114,7 +115,7 @@ bool hasResult(const Case& c, Stage stage) {
     case Stage::Skeleton:
       return c.skeleton.has_value();
     case Stage::Musculature:
-      return c.model.has_value();
+      return c.musculature.has_value() && c.model.has_value();
     case Stage::Exam:
       return c.exam_fit.has_value();
     case Stage::Report:

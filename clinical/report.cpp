@@ -70,7 +70,8 @@ std::string calibrationText(const Case& c) {
   std::ranges::replace(method, '_', ' ');
   std::string text = method + " " + orText(record.id, "without id") + ", " + rmsText(record.rms_px);
   if (std::isfinite(record.accuracy_mm))
-    text += record.accuracy_mm < 0.1 ? ", better than 0.1 mm" : ", about " + numberText(record.accuracy_mm, 1) + " mm";
+    text +=
+        record.accuracy_mm < 0.1 ? ", better than 0.1 mm" : ", about " + numberText(record.accuracy_mm, 1) + " mm";
   return text;
 }
 
@@ -130,7 +131,7 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
   report.annexes = {definitionTable(*c.skeleton, norms), protocolTable(*c.exam_fit, protocol),
                     lengthFactorTable(*c.exam_fit), landmarkTable(c), provenanceTable(c, case_dir)};
   if (c.truth) report.annexes.push_back(truthTable(c));
-  report.passive_moments = passiveMomentPlots(c, reference, protocol);
+  report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir), protocol);
   report.footer = footerOf(c);
   report.warnings = warningsOf(c);
   report.disclaimer = kDisclaimer;

@@ -190,10 +190,8 @@ ReportTable lengthFactorTable(const ExamFit& fit) {
   return table;
 }
 
-std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& reference,
-                                                  const ExamProtocol& protocol) {
+std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ExamProtocol& protocol) {
   std::vector<PassiveMomentPlot> plots;
-  const Model before = deformedModel(reference, c.skeleton->shape);
   const Model after = withLengthFactors(before, c.exam_fit->length_factors);
   for (const auto& comparison : inOrder(*c.exam_fit, protocol)) {
     const ExamTest& test = protocol.test(comparison.test);

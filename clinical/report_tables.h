@@ -44,7 +44,6 @@ ReportTable lengthFactorTable(const ExamFit& fit);
 ReportTable truthTable(const Case& c);
 ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir);
 
-std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& reference,
-                                                  const ExamProtocol& protocol);
+std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ExamProtocol& protocol);
 
 }  // namespace sinew

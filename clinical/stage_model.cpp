@@ -9,6 +9,8 @@
 namespace sinew {
 namespace {
 
+constexpr const char* kModelName = "patient";
+constexpr const char* kMusculatureFolder = "results/musculature/";
 constexpr const char* kModelPath = "results/model.json";
 constexpr const char* kReportPath = "results/report.pdf";
 constexpr double kReferenceMass_kg = 75;
@@ -28,17 +30,36 @@ std::string skeletonSummary(const SkeletonFit& fit) {
   return text;
 }
 
-/// The model of the fitted bones, before the examination.
-Model fittedModel(const Case& c, const Model& reference) {
-  Model model = deformedModel(reference, c.skeleton->shape);
-  model.name = "patient";
-  return model;
-}
-
 FileReference storeModel(const Model& model, const PipelineContext& context) {
   const auto file = context.case_dir / kModelPath;
   saveModel(model, file);
   return {kModelPath, sha256OfFile(file)};
+}
+
+/// Later stages read it, so an undone edit must find the file of its day: it is named by its content.
+FileReference storeMusculature(const Model& model, const PipelineContext& context) {
+  const auto part = context.case_dir / kMusculatureFolder / "part.json";
+  saveModel(model, part);
+  const std::string hash = sha256OfFile(part);
+  const std::string path = kMusculatureFolder + hash.substr(0, 12) + ".json";
+  std::filesystem::rename(part, context.case_dir / path);
+  return {path, hash};
+}
+
+std::string musculatureSummary(const Retargeted& retargeted) {
+  const RoutingWeights weights;
+  double before = 0, after = 0, farthest_m = 0, worst_deg = 0;
+  for (const UnitRouting& unit : retargeted.routing) {
+    before += unit.start.total(weights);
+    after += unit.end.total(weights);
+    farthest_m = std::max(farthest_m, unit.largest_move_m);
+  }
+  for (const PeakTorqueAngle& peak : retargeted.peak_torque)
+    if (std::isfinite(peak.after_deg - peak.reference_deg))
+      worst_deg = std::max(worst_deg, std::abs(peak.after_deg - peak.reference_deg));
+  return std::to_string(retargeted.routing.size()) + " units retargeted, energy " + rounded(before, 1) + " -> " +
+         rounded(after, 1) + ", points moved up to " + rounded(1000 * farthest_m, 0) +
+         " mm, angles of peak torque within " + rounded(worst_deg, 1) + " deg";
 }
 
 std::string examSummary(const ExamFit& fit) {
@@ -72,12 +93,19 @@ StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job) {
   return run;
 }
 
-StageRun runMusculature(Case& c, const PipelineContext& context) {
+StageRun runMusculature(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
-  const auto model = patientModel(c, *context.reference);
-  run.warnings = validateModel(*model);
-  c.model = storeModel(*model, context);
-  run.summary = std::to_string(model->musculature.units.size()) + " units, model " + c.model->sha256.substr(0, 12);
+  const auto reference = context.retargeting ? context.retargeting() : loadRetargetReference(context.resource_dir);
+  Retargeted retargeted = retarget(*reference, c.skeleton->shape, {}, job);
+  run.outcome = retargeted.outcome;
+  if (run.outcome != Outcome::Converged) return run;
+  retargeted.model.name = kModelName;
+  run.warnings = validateModel(retargeted.model);
+  c.musculature = storeMusculature(retargeted.model, context);
+  const bool examined = c.exam_fit && stateOf(c, Stage::Exam) == StageState::Done;
+  c.model = storeModel(examined ? withLengthFactors(retargeted.model, c.exam_fit->length_factors) : retargeted.model,
+                       context);
+  run.summary = musculatureSummary(retargeted) + ", model " + c.model->sha256.substr(0, 12);
   return run;
 }
 
@@ -88,7 +116,7 @@ StageRun runExam(Case& c, const PipelineContext& context, const Job& job) {
     run.warnings.push_back({"nothing_measured", "no test was measured: muscle lengths follow the bones alone"});
   if (!c.patient.mass_kg)
     run.warnings.push_back({"mass_unknown", "body mass is not known: the examiner's torque is that for 75 kg"});
-  const Model model = fittedModel(c, *context.reference);
+  const Model model = modelBeforeExam(c, *context.reference, context.case_dir);
   c.exam_fit = applyExam(model, c.exam, protocol, c.patient.mass_kg.value_or(kReferenceMass_kg), job);
   addWarnings(run.warnings, c.exam_fit->warnings);
   run.outcome = c.exam_fit->outcome;
@@ -124,9 +152,17 @@ StageRun runReport(Case& c, const PipelineContext& context) {
           .summary = std::to_string((std::filesystem::file_size(file) + 1023) / 1024) + " kB"};
 }
 
-std::optional<Model> patientModel(const Case& c, const Model& reference) {
+Model modelBeforeExam(const Case& c, const Model& reference, const std::filesystem::path& case_dir) {
+  if (c.musculature && stateOf(c, Stage::Musculature) == StageState::Done)
+    return loadModel(checkedFile(*c.musculature, case_dir), reference);
+  Model model = deformedModel(reference, c.skeleton->shape);
+  model.name = kModelName;
+  return model;
+}
+
+std::optional<Model> patientModel(const Case& c, const Model& reference, const std::filesystem::path& case_dir) {
   if (!c.skeleton) return std::nullopt;
-  Model model = fittedModel(c, reference);
+  Model model = modelBeforeExam(c, reference, case_dir);
   if (c.exam_fit && stateOf(c, Stage::Exam) == StageState::Done)
     model = withLengthFactors(model, c.exam_fit->length_factors);
   return model;

@@ -24,7 +24,7 @@ StageRun runLandmarks(Case& c, const PipelineContext& context);
 /// Shape and posture from the sightings.
 StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job);
 /// The model of that shape, in results/model.json.
-StageRun runMusculature(Case& c, const PipelineContext& context);
+StageRun runMusculature(Case& c, const PipelineContext& context, const Job& job);
 /// Muscle lengths that make the simulated tests meet the measured ones; the model with them.
 StageRun runExam(Case& c, const PipelineContext& context, const Job& job);
 /// results/report.pdf.

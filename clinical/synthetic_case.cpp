@@ -43,18 +43,19 @@ Patient identityOf(const Skeleton& skeleton, unsigned seed) {
 
 }  // namespace
 
-SyntheticPatient drawSyntheticPatient(const Model& reference, const SyntheticOptions& options) {
+SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const SyntheticOptions& options) {
+  const Skeleton& reference_skeleton = reference.model().skeleton;
   // One stream of random numbers for each part, so that other options do not change the patient.
   RandomSource shape_source{options.seed, 1}, posture_source{options.seed, 2}, picking_source{options.seed, 3};
   SyntheticPatient patient;
   patient.shape = drawPatientShape(loadShapePriors(options.resource_dir), shape_source);
-  const Skeleton skeleton = deformedSkeleton(reference.skeleton, patient.shape);
+  const Skeleton skeleton = deformedSkeleton(reference_skeleton, patient.shape);
   patient.posture = drawPatientPosture(skeleton, floorHeight_m(options.rig), posture_source);
   patient.true_rig = drawTrueRig(options.rig, options.seed, options.binning);
   patient.sightings = drawSightings(skeleton, patient.posture, patient.true_rig, options.resource_dir,
                                     options.picking_noise_mm, picking_source);
   patient.patient = identityOf(skeleton, options.seed);
-  patient.truth.figures = boneFigures(reference.skeleton, patient.shape, patient.posture);
+  patient.truth.figures = boneFigures(reference_skeleton, patient.shape, patient.posture);
   patient.truth.seed = options.seed;
   const SyntheticExam exam = drawExam(reference, patient.shape, *patient.patient.mass_kg, options);
   patient.exam = exam.exam;

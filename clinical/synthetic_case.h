@@ -7,6 +7,7 @@
 #include "clinical/synthetic_rig.h"
 #include "core/job.h"
 #include "core/model/model.h"
+#include "core/retarget/retarget.h"
 #include "imaging/radiograph.h"
 
 namespace sinew {
@@ -33,7 +34,7 @@ struct SyntheticPatient {
   Patient patient;  ///< clearly synthetic: "Demo^Patient", id "SYNTHETIC-1"
 };
 /// Deterministic in the options. No images yet.
-SyntheticPatient drawSyntheticPatient(const Model& reference, const SyntheticOptions& options);
+SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const SyntheticOptions& options);
 
 /// Radiograph of posed bones and a soft-tissue envelope: attenuation (Beer-Lambert; fat, muscle, compact and spongy
 /// bone) integrated along the ray of every pixel, scatter, quantum noise, detector blur, R/L marker, collimation; a

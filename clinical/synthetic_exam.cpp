@@ -25,7 +25,7 @@ std::map<std::string, double> drawContractures(const ExamProtocol& protocol, Ran
 
 }  // namespace
 
-SyntheticExam drawExam(const Model& reference, const ShapeParameters& shape, double mass_kg,
+SyntheticExam drawExam(const RetargetReference& reference, const ShapeParameters& shape, double mass_kg,
                        const SyntheticOptions& options) {
   const ExamProtocol protocol = loadExamProtocol(options.resource_dir);
   RandomSource contracture_source{options.seed, 4}, reading_source{options.seed, 5};
@@ -34,7 +34,7 @@ SyntheticExam drawExam(const Model& reference, const ShapeParameters& shape, dou
   drawn.diagnosis = "Synthetic: short hamstrings, hip flexors";
   drawn.exam.examiner = "Sinew (simulated)";
   drawn.exam.date = "2026-01-05";
-  const Model patient = withLengthFactors(deformedModel(reference, shape), drawn.length_factors);
+  const Model patient = withLengthFactors(retarget(reference, shape).model, drawn.length_factors);
   for (const auto& test : protocol.tests)
     for (const char side : {'r', 'l'}) {
       const double noise_deg = options.exam_noise_deg * reading_source.normal();

@@ -17,7 +17,7 @@ struct SyntheticExam {
 /// (0.785-0.815) short on both sides, each side its own, gastrocnemius on one (0.94-0.97); every test of the protocol
 /// on both sides, simulated on the model with these lengths at the threshold of its mass, with the options' noise,
 /// rounded to whole degrees.
-SyntheticExam drawExam(const Model& reference, const ShapeParameters& shape, double mass_kg,
+SyntheticExam drawExam(const RetargetReference& reference, const ShapeParameters& shape, double mass_kg,
                        const SyntheticOptions& options);
 
 }  // namespace sinew

@@ -15,6 +15,7 @@ PipelineContext contextFor(Session& session, const std::filesystem::path& folder
   context.resource_dir = session.resourceDir();
   context.case_dir = folder;
   context.reference = &session.reference();
+  context.retargeting = [&session] { return session.retargeting(); };
   if (session.reportWriter())
     context.write_report = [&session](const Case& c, const std::filesystem::path& case_dir,
                                       const std::filesystem::path& pdf) {

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <tuple>
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "core/model/path_clearance.h"
+#include "core/model/bone_contacts.h"
 #include "core/rom/range_postures.h"
 #include "core/skeleton/clinical_angles.h"
 
@@ -36,6 +37,17 @@ std::string postureInWords(const Skeleton& skeleton, const Posture& q) {
   return text.empty() ? "zero" : text;
 }
 
+/// Depth over those postures in which the bones that the unit spans are apart, and how many these are.
+std::pair<double, std::size_t> depthWithBonesApart(const Model& model, const BoneDistances& bones,
+                                                   BoneContacts& contacts, const MusculotendonUnit& unit,
+                                                   const std::vector<Posture>& postures) {
+  std::vector<Posture> possible;
+  for (const int k : contacts.posturesWithBonesApart(unit)) possible.push_back(postures[std::size_t(k)]);
+  Model alone = model;
+  alone.musculature.units = {unit};
+  return {measurePenetration(alone, bones, possible).front().depth_m, possible.size()};
+}
+
 ExitStatus run(Session& session, const Options& options) {
   const Model model = session.model(options.model);
   const BoneDistances bones{model};
@@ -44,7 +56,8 @@ ExitStatus run(Session& session, const Options& options) {
   const auto attachment = measureAttachments(model, bones);
   Json muscles = Json::array();
   std::vector<std::vector<std::string>> rows;
-  int attached = 0, clear = 0;
+  BoneContacts contacts{model, bones, postures, kPenetration_m};
+  int attached = 0, clear = 0, clear_apart = 0;
   const auto& units = model.musculature.units;
   for (std::size_t u = 0; u < units.size(); ++u) {
     const auto& p = penetration[u];
@@ -53,6 +66,10 @@ ExitStatus run(Session& session, const Options& options) {
     const bool good_path = p.depth_m < kPenetration_m;
     attached += good_ends;
     clear += good_path;
+    double apart_m = p.depth_m;
+    std::size_t apart_count = postures.size();
+    if (!good_path) std::tie(apart_m, apart_count) = depthWithBonesApart(model, bones, contacts, units[u], postures);
+    clear_apart += apart_m < kPenetration_m;
     const std::string where = p.posture < 0 ? "" : postureInWords(model.skeleton, postures[std::size_t(p.posture)]);
     muscles.push_back({{"name", units[u].name},
                        {"origin_mm", 1000 * a.origin_m},
@@ -60,24 +77,29 @@ ExitStatus run(Session& session, const Options& options) {
                        {"insertion_mm", 1000 * a.insertion_m},
                        {"insertion_bone", a.insertion_bone},
                        {"penetration_mm", 1000 * p.depth_m},
+                       {"penetration_bones_apart_mm", 1000 * apart_m},
+                       {"postures_bones_apart", apart_count},
                        {"bone", p.bone},
                        {"path_segment", p.path_segment},
                        {"posture", where}});
     if (options.all || !good_ends || !good_path)
       rows.push_back({units[u].name, fixed(1000 * a.origin_m, 1), fixed(1000 * a.insertion_m, 1),
-                      fixed(1000 * p.depth_m, 1), p.bone, p.path_segment < 0 ? "" : std::to_string(p.path_segment),
-                      where});
+                      fixed(1000 * p.depth_m, 1), fixed(1000 * apart_m, 1), std::to_string(apart_count), p.bone,
+                      p.path_segment < 0 ? "" : std::to_string(p.path_segment), where});
   }
-  std::string text =
-      textTable({"muscle", "origin mm", "insertion mm", "inside mm", "bone", "segment", "posture"}, rows);
+  std::string text = textTable(
+      {"muscle", "origin mm", "insertion mm", "inside mm", "bones apart", "postures", "bone", "segment", "posture"},
+      rows);
   text += std::to_string(attached) + " of " + std::to_string(units.size()) +
           " units have both ends within 3 mm of a bone; " + std::to_string(clear) +
-          " stay less than 2 mm inside any bone over " + std::to_string(postures.size()) + " postures\n";
+          " stay less than 2 mm inside any bone over " + std::to_string(postures.size()) + " postures, " +
+          std::to_string(clear_apart) + " where the bones that they span do not run into each other\n";
   session.result({{"format", "sinew.path_clearance"},
                   {"version", 1},
                   {"postures", postures.size()},
                   {"attached", attached},
                   {"clear", clear},
+                  {"clear_bones_apart", clear_apart},
                   {"muscles", std::move(muscles)}},
                  text);
   return ExitStatus::Done;

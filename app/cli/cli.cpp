@@ -94,7 +94,9 @@ void addCommands(Commands& commands) {
   addRomCommand(commands);
   addRetargetCommand(commands);
   addExperimentCommand(commands);
+  addRomEditCommand(commands);
   addExportCommand(commands);
+  addImportCommand(commands);
   addBenchCommand(commands);
   addRomTestsCommand(commands);
   addPosesCommands(commands);

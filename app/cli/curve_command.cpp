@@ -5,6 +5,7 @@
 #include "app/cli/svg_plot.h"
 #include "app/cli/svg_to_png.h"
 #include "core/file.h"
+#include "core/foreign/foreign_evaluate.h"
 #include "core/muscle/evaluate.h"
 #include "core/text.h"
 
@@ -19,9 +20,12 @@ struct CurveOptions {
   int samples = 101;
 };
 
-const MusculotendonUnit& unitNamed(const Model& model, const std::string& name) {
-  return model.musculature.units[static_cast<std::size_t>(model.musculature.unitIndex(name))];
-}
+/// A curve and what it is of; from our model or a foreign one.
+struct NamedCurve {
+  std::string model, muscle;
+  JointMotion motion;
+  MotionCurve curve;
+};
 
 Json listJson(const std::vector<double>& values) {
   Json list = Json::array();
@@ -29,12 +33,13 @@ Json listJson(const std::vector<double>& values) {
   return list;
 }
 
-Json curveJson(const MusculotendonUnit& unit, const JointMotion& motion, const MotionCurve& c) {
+Json curveJson(const NamedCurve& of) {
+  const MotionCurve& c = of.curve;
   return {{"format", "sinew.curve"},
           {"version", 1},
-          {"muscle", unit.name},
-          {"motion", motion.name},
-          {"coordinate", motion.coordinate},
+          {"muscle", of.muscle},
+          {"motion", of.motion.name},
+          {"coordinate", of.motion.coordinate},
           {"theta", listJson(c.theta)},
           {"angle_deg", listJson(c.angle_deg)},
           {"length_m", listJson(c.length_m)},
@@ -63,40 +68,50 @@ std::vector<double> inMm(std::vector<double> values) {
   return values;
 }
 
-std::string curveSvg(const Model& model, const MusculotendonUnit& unit, const JointMotion& motion,
-                     const MotionCurve& c) {
-  return plotSvg(unit.name + ", " + motion.title + " (" + model.name + ")", motion.coordinate + " [deg]", c.angle_deg,
+std::string curveSvg(const NamedCurve& of) {
+  const MotionCurve& c = of.curve;
+  return plotSvg(of.muscle + ", " + of.motion.title + " (" + of.model + ")", of.motion.coordinate + " [deg]",
+                 c.angle_deg,
                  {{"length [mm]", {{"length", inMm(c.length_m)}}},
                   {"moment arm [mm]", {{"moment arm", inMm(c.moment_arm_m)}}},
                   {"force [N]", {{"passive", c.passive_force_N}, {"active, full", c.active_force_N}}}});
 }
 
 /// The curve in the form that the file name asks for.
-std::string contentFor(const std::filesystem::path& file, const Model& model, const MusculotendonUnit& unit,
-                       const JointMotion& motion, const MotionCurve& curve) {
+std::string contentFor(const std::filesystem::path& file, const NamedCurve& curve) {
   const std::string extension = file.extension().string();
-  if (extension == ".csv") return curveCsv(curve);
-  if (extension == ".json") return jsonText(curveJson(unit, motion, curve));
-  if (extension == ".svg") return curveSvg(model, unit, motion, curve);
-  if (extension == ".png") return pngFromSvg(curveSvg(model, unit, motion, curve), kPngScale);
+  if (extension == ".csv") return curveCsv(curve.curve);
+  if (extension == ".json") return jsonText(curveJson(curve));
+  if (extension == ".svg") return curveSvg(curve);
+  if (extension == ".png") return pngFromSvg(curveSvg(curve), kPngScale);
   throw InputError{
       {"sinew curve", "--output", "a name that ends in .csv, .json, .svg or .png", "'" + extension + "'"}};
+}
+
+NamedCurve curveOf(const ForeignModel& model, const CurveOptions& o) {
+  const int unit = model.musculature.unitIndex(o.muscle);
+  const JointMotion motion = foreignMotion(model, o.motion);
+  return {model.name, o.muscle, motion, motionCurve(model, unit, motion, o.samples)};
+}
+
+NamedCurve curveOf(const Model& model, const CurveOptions& o, const std::filesystem::path& resource_dir) {
+  const MusculotendonUnit& unit = model.musculature.unit(o.muscle);
+  const auto motions = loadJointMotions(resource_dir, model.skeleton);
+  const JointMotion& motion = findMotion(motions, o.motion, unit.name.ends_with("_l") ? 'l' : 'r');
+  return {model.name, unit.name, motion, motionCurve(model.skeleton, unit, motion, o.samples)};
 }
 
 ExitStatus makeCurve(const CurveOptions& o, Session& session) {
   if (o.samples < 2 || o.samples > 100000)
     throw InputError{{"sinew curve", "--samples", "2 ... 100000", std::to_string(o.samples)}};
-  const Model model = session.model(o.model);
-  const MusculotendonUnit& unit = unitNamed(model, o.muscle);
-  const auto motions = loadJointMotions(session.resourceDir(), model.skeleton);
-  const JointMotion& motion = findMotion(motions, o.motion, unit.name.ends_with("_l") ? 'l' : 'r');
-  const MotionCurve curve = motionCurve(model.skeleton, unit, motion, o.samples);
-  std::string text = curveCsv(curve);
+  const auto foreign = session.foreignModel(o.model);
+  const NamedCurve curve = foreign ? curveOf(*foreign, o) : curveOf(session.model(o.model), o, session.resourceDir());
+  std::string text = curveCsv(curve.curve);
   if (!o.output.empty()) {
-    writeFileAtomically(o.output, contentFor(o.output, model, unit, motion, curve));
+    writeFileAtomically(o.output, contentFor(o.output, curve));
     text = "written " + o.output.string() + "\n";
   }
-  session.result(curveJson(unit, motion, curve), text);
+  session.result(curveJson(curve), text);
   return ExitStatus::Done;
 }
 
@@ -107,9 +122,15 @@ void addCurveCommand(Commands& commands) {
   auto& command =
       addCommand(commands.app, "curve", "length, moment arm and force of a muscle over a joint motion",
                  "sinew curve reference --muscle soleus_medial_r --motion ankle_dorsiflexion -o curve.svg");
-  command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
+  command.add_option("MODEL", o->model, "model file, or reference, reference:athlete, or an OpenSim file (.osim)")
+      ->required();
   command.add_option("--muscle", o->muscle, "musculotendon unit")->required();
-  command.add_option("--motion", o->motion, "joint motion; without a side that of the muscle")->required();
+  command
+      .add_option(
+          "--motion", o->motion,
+          "joint motion; without a side that of the muscle. Of an OpenSim file: a coordinate over its range, or "
+          "COORDINATE=FROM:TO in degrees, the others at their defaults")
+      ->required();
   command.add_option("-o,--output", o->output, "file: .csv, .json, .svg or .png");
   command.add_option("--samples", o->samples, "number of angles")->capture_default_str();
   command.callback(

@@ -104,7 +104,7 @@ void addDemo(Commands& commands) {
       options.seed = o->seed;
       options.binning = o->binning;
       options.rig = o->rig == rigs[0] ? SyntheticRig::ConeBeam : SyntheticRig::SlotScan;
-      const auto patient = drawSyntheticPatient(session.reference(), options);
+      const auto patient = drawSyntheticPatient(*session.retargeting(), options);
       Case c = writeSyntheticCase(patient, session.reference(), options, o->folder, session.job());
       if (session.job().cancelled()) {
         session.result(

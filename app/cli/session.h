@@ -9,7 +9,9 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/progress.h"
 #include "clinical/case.h"
+#include "core/foreign/foreign_model.h"
 #include "core/model/model.h"
+#include "core/retarget/retarget.h"
 #include "core/strict_json.h"
 
 namespace sinew {
@@ -41,8 +43,12 @@ class Session {
   /// @throws InputError naming all places if there is none.
   const std::filesystem::path& resourceDir();
   const Model& reference();
+  /// What musculatures are retargeted from, made at the first call (a second).
+  std::shared_ptr<const RetargetReference> retargeting();
   /// "reference", "reference:athlete" or a model file.
   Model model(const std::string& name_or_file);
+  /// A model of another program, if the name is that of such a file; its warnings are shown. nullopt otherwise.
+  std::optional<ForeignModel> foreignModel(const std::string& file);
   const ReportWriter& reportWriter() const { return write_report_; }
 
   Job job();                            ///< progress to stderr, stopped by Ctrl-C
@@ -63,6 +69,7 @@ class Session {
   std::unique_ptr<Progress> progress_ = std::make_unique<Progress>(stderr, Progress::Style::Quiet);
   std::optional<std::filesystem::path> resource_dir_;
   std::shared_ptr<const Model> reference_;
+  std::shared_ptr<const RetargetReference> retargeting_;
 };
 
 /// {"error": {"where", "field", "expected", "found", "message"}}.

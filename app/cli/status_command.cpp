@@ -12,6 +12,7 @@ namespace {
 /// Every file that the case refers to.
 std::vector<FileReference> filesOf(const Case& c) {
   std::vector<FileReference> files = enteredFiles(c);
+  if (c.musculature) files.push_back(*c.musculature);
   if (c.model) files.push_back(*c.model);
   if (c.report) files.push_back(*c.report);
   return files;

@@ -29,6 +29,7 @@ void copyResult(Case& c, const Case& from, Stage stage) {
       c.skeleton = from.skeleton;
       break;
     case Stage::Musculature:
+      c.musculature = from.musculature;
       c.model = from.model;
       break;
     case Stage::Exam:
@@ -121,7 +122,8 @@ bool runStages(CaseDocument& document, JobRunner& runner, const StageServices& s
       title,
       [=](const Job& job) -> JobRunner::Finish {
         const auto reference = services.reference();
-        compute(*progress, stages, {services.resource_dir, folder, reference.get(), services.write_report}, job);
+        compute(*progress, stages,
+                {services.resource_dir, folder, reference.get(), services.retargeting, services.write_report}, job);
         return applyAll;
       },
       applyAll);

@@ -5,13 +5,16 @@
 
 #include "app/model/case_document.h"
 #include "app/model/job_runner.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 
-/// What the window supplies for running stages. `reference` is called on the worker thread and may load the model.
+/// What the window supplies for running stages. `reference` and `retargeting` are called on the worker thread and may
+/// read files.
 struct StageServices {
   std::filesystem::path resource_dir;
   std::function<std::shared_ptr<const Model>()> reference;
+  std::function<std::shared_ptr<const RetargetReference>()> retargeting;  ///< as `reference`
   std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)>
       write_report;
 };

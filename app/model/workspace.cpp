@@ -10,6 +10,7 @@ std::string modelKey(const Case& c) {
   if (!c.skeleton || c.skeleton->outcome != Outcome::Converged) return {};
   std::string key;
   for (const double value : toVector(c.skeleton->shape)) key += std::to_string(value) + ' ';
+  if (c.musculature) key += c.musculature->sha256;
   if (c.model) key += c.model->sha256;
   return key;
 }
@@ -36,6 +37,12 @@ std::shared_ptr<const Model> Workspace::reference() {
   return reference_;
 }
 
+std::shared_ptr<const RetargetReference> Workspace::retargeting() {
+  const std::scoped_lock lock{retargeting_mutex_};
+  if (!retargeting_) retargeting_ = loadRetargetReference(resource_dir_);
+  return retargeting_;
+}
+
 const ExamProtocol& Workspace::protocol() {
   if (!protocol_) protocol_ = loadExamProtocol(resource_dir_);
   return *protocol_;
@@ -53,7 +60,7 @@ std::shared_ptr<const Model> Workspace::patientModel() {
     patient_model_.reset();
     patient_model_key_.clear();
     if (!key.empty())
-      if (auto model = sinew::patientModel(c, *reference()))
+      if (auto model = sinew::patientModel(c, *reference(), document_.folder()))
         patient_model_ = std::make_shared<const Model>(std::move(*model));
     patient_model_key_ = key;
   }
@@ -61,7 +68,7 @@ std::shared_ptr<const Model> Workspace::patientModel() {
 }
 
 void Workspace::run(std::vector<Stage> stages) {
-  StageServices services{resource_dir_, [this] { return reference(); }, {}};
+  StageServices services{resource_dir_, [this] { return reference(); }, [this] { return retargeting(); }, {}};
   if (write_report_)
     services.write_report = [this](const Case& c, const std::filesystem::path& case_dir,
                                    const std::filesystem::path& pdf) {
@@ -94,9 +101,8 @@ void Workspace::makeDemo(const std::filesystem::path& folder, bool slot_scan) {
     SyntheticOptions options;
     options.resource_dir = resource_dir_;
     if (slot_scan) options.rig = SyntheticRig::SlotScan;
-    const auto model = reference();
-    const auto patient = drawSyntheticPatient(*model, options);
-    auto made = std::make_shared<Case>(writeSyntheticCase(patient, *model, options, folder, job));
+    const auto patient = drawSyntheticPatient(*retargeting(), options);
+    auto made = std::make_shared<Case>(writeSyntheticCase(patient, *reference(), options, folder, job));
     return [=, this] { document_.adopt(*made, folder); };
   });
   if (!started) emit problem(tr("Another computation is still going on: wait for it or cancel it."));

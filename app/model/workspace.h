@@ -10,6 +10,7 @@
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
 #include "clinical/norms.h"
+#include "core/retarget/retarget.h"
 #include "core/rom/exam_test.h"
 
 namespace sinew {
@@ -33,6 +34,8 @@ class Workspace : public QObject {
 
   /// The reference model, read at the first call; from any thread. @throws InputError.
   std::shared_ptr<const Model> reference();
+  /// What musculatures are retargeted from, made at the first call (a second); from any thread. @throws InputError.
+  std::shared_ptr<const RetargetReference> retargeting();
   /// The forms of the examination. GUI thread. @throws InputError.
   const ExamProtocol& protocol();
   /// Titles and conventions of the figures. GUI thread. @throws InputError.
@@ -62,6 +65,8 @@ class Workspace : public QObject {
   ImageStore images_;
   std::mutex reference_mutex_;
   std::shared_ptr<const Model> reference_;
+  std::mutex retargeting_mutex_;
+  std::shared_ptr<const RetargetReference> retargeting_;
   std::optional<ExamProtocol> protocol_;
   std::optional<NormTable> norms_;
   std::string patient_model_key_;

@@ -320,10 +320,8 @@ void ExamPage::refreshPlot() {
   std::vector<PlotCurve> curves;
   const ExamComparison* result = comparisonOf(c, id, side);
   if (result && !model->length_factors.empty()) {
-    Case before = c;
-    before.exam_fit.reset();
-    if (const auto unchanged = patientModel(before, *workspace().reference()))
-      curves.push_back({tr("before"), passiveMomentCurve(*unchanged, test, side), colour::kMuted, true});
+    const Model before = modelBeforeExam(c, *workspace().reference(), workspace().document().folder());
+    curves.push_back({tr("before"), passiveMomentCurve(before, test, side), colour::kMuted, true});
   }
   curves.push_back(
       {curves.empty() ? tr("model") : tr("after"), passiveMomentCurve(*model, test, side), colour::kPrimary, false});

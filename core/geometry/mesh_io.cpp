@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <type_traits>
 
@@ -130,6 +131,20 @@ std::vector<NamedMesh> readMeshes(const std::filesystem::path& file) {
   for (auto& mesh : meshes) mesh = getMesh(in, where);
   if (!in.atEnd()) throw InputError{{where, "", "the end of the file after the last mesh", "more bytes"}};
   return meshes;
+}
+
+std::string objText(const TriangleMesh& mesh) {
+  std::string text;
+  char line[96];
+  for (const auto& v : mesh.vertices) {
+    std::snprintf(line, sizeof line, "v %.7g %.7g %.7g\n", v.x(), v.y(), v.z());
+    text += line;
+  }
+  for (const auto& t : mesh.triangles) {
+    std::snprintf(line, sizeof line, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    text += line;
+  }
+  return text;
 }
 
 }  // namespace sinew

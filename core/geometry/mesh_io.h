@@ -23,4 +23,7 @@ void writeMeshes(const std::vector<NamedMesh>& meshes, const std::filesystem::pa
 /// @throws InputError for a file that is not such a file, of another version, truncated or with impossible indices.
 std::vector<NamedMesh> readMeshes(const std::filesystem::path& file);
 
+/// One surface as Wavefront OBJ text, metres.
+std::string objText(const TriangleMesh& mesh);
+
 }  // namespace sinew

@@ -1,17 +1,14 @@
 #include "core/io/mjcf.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "core/foreign/foreign_from_model.h"
+
 namespace sinew {
 namespace {
-
-// MuJoCo wants mass and inertia in every body that moves by itself; the driven bones take a little from the bone that
-// they glide on, so that the whole stays the same.
-constexpr double kDrivenMass_kg = 0.02, kDrivenInertia_kgm2 = 2e-5;
 
 std::string number(double value) {
   char text[32];
@@ -60,7 +57,10 @@ double largestTurn_rad(const Skeleton& skeleton, const Joint& joint) {
 /// Writes one model; the text grows in document order.
 class MjcfWriter {
  public:
-  explicit MjcfWriter(const Model& model) : skeleton_{model.skeleton}, units_{model.musculature.units} {
+  explicit MjcfWriter(const Model& model)
+      : skeleton_{model.skeleton},
+        segments_{segmentsWithDrivenMass(model.skeleton)},
+        units_{model.musculature.units} {
     text_ = "<mujoco model=\"" + escaped(model.name) + "\">\n" +
             "  <compiler angle=\"radian\" coordinate=\"local\"/>\n"
             "  <option timestep=\"0.001\" gravity=\"0 -9.81 0\"/>\n"
@@ -80,17 +80,13 @@ class MjcfWriter {
     text_ += indent + "<body name=\"" + escaped(name) + "\" " + pose(X) + ">\n";
   }
 
-  void inertial(const std::string& indent, const Segment& segment, int driven_children) {
-    const double mass_kg = segment.mass_kg - driven_children * kDrivenMass_kg;
-    const Eigen::Matrix3d I = segment.inertia_B_kgm2 * (mass_kg / segment.mass_kg);
+  void inertial(const std::string& indent, int segment) {
+    const Segment& s = segments_[static_cast<std::size_t>(segment)];
+    const Eigen::Matrix3d& I = s.inertia_B_kgm2;
     Eigen::VectorXd entries(6);
     entries << I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2);
-    text_ += indent + "<inertial pos=\"" + numbers(segment.p_BCom) + "\" mass=\"" + number(mass_kg) +
+    text_ += indent + "<inertial pos=\"" + numbers(s.p_BCom) + "\" mass=\"" + number(s.mass_kg) +
              "\" fullinertia=\"" + numbers(entries) + "\"/>\n";
-  }
-  void drivenInertial(const std::string& indent) {
-    text_ += indent + "<inertial pos=\"0 0 0\" mass=\"" + number(kDrivenMass_kg) + "\" diaginertia=\"" +
-             numbers(Eigen::Vector3d::Constant(kDrivenInertia_kgm2)) + "\"/>\n";
   }
 
   void hinge(const std::string& indent, const std::string& name, const Eigen::Vector3d& axis,
@@ -138,7 +134,7 @@ class MjcfWriter {
     const auto patella = std::ranges::find(skeleton_.patellae, segment, &PatellaDriver::femur);
     const auto radius = std::ranges::find(skeleton_.radii, segment, &RadiusDriver::ulna);
     const bool has_patella = patella != skeleton_.patellae.end(), has_radius = radius != skeleton_.radii.end();
-    inertial(indent, skeleton_.segments[segment], has_patella + has_radius);
+    inertial(indent, segment);
     sites(indent, segment);
     if (has_patella) patellaBody(*patella, indent);
     if (has_radius) radiusBody(*radius, indent);
@@ -155,7 +151,7 @@ class MjcfWriter {
     const std::string& name = skeleton_.segments[d.segment].name;
     open(indent, name, X_FP);
     hinge(indent + "  ", name + "_glide", -Eigen::Vector3d::UnitZ(), -p_KP, "limited=\"false\"");
-    drivenInertial(indent + "  ");
+    inertial(indent + "  ", d.segment);
     sites(indent + "  ", d.segment);
     text_ += indent + "</body>\n";
   }
@@ -169,7 +165,7 @@ class MjcfWriter {
     X_UR.translation() = d.p_UR;
     open(indent, skeleton_.segments[d.segment].name, X_UR);
     coordinateHinge(inside, c[0], d.axis_U);
-    drivenInertial(inside);
+    inertial(inside, d.segment);
     sites(inside, d.segment);
     open(inside, skeleton_.segments[wrist.child].name, X_UR.inverse() * wrist.X_PJ);
     coordinateHinge(innermost, c[1], c[1].axis);
@@ -181,7 +177,7 @@ class MjcfWriter {
   void equalities() {
     text_ += "  <equality>\n";
     for (const PatellaDriver& d : skeleton_.patellae) {
-      const MjcfPatella fit = mjcfPatella(skeleton_, d);
+      const PatellaQuartic fit = patellaQuartic(skeleton_, d);
       text_ += "    <joint joint1=\"" + escaped(skeleton_.segments[d.segment].name) + "_glide\" joint2=\"" +
                escaped(skeleton_.coordinates[d.knee_coordinate].name) + "\" polycoef=\"" +
                numbers(Eigen::Map<const Eigen::VectorXd>(fit.coefficients, 5)) + "\"/>\n";
@@ -215,28 +211,12 @@ class MjcfWriter {
   }
 
   const Skeleton& skeleton_;
+  const std::vector<Segment> segments_;  ///< driven bones with their mass
   const std::vector<MusculotendonUnit>& units_;
   std::string text_;
 };
 
 }  // namespace
-
-MjcfPatella mjcfPatella(const Skeleton& skeleton, const PatellaDriver& patella) {
-  constexpr int kSamples = 181;
-  const Coordinate& knee = skeleton.coordinates[patella.knee_coordinate];
-  Eigen::MatrixXd powers(kSamples, 5);
-  Eigen::VectorXd glide(kSamples);
-  for (int i = 0; i < kSamples; ++i) {
-    const double x = knee.athlete_min_rad + (knee.athlete_max_rad - knee.athlete_min_rad) * i / (kSamples - 1);
-    for (int k = 0; k < 5; ++k) powers(i, k) = std::pow(x, k);
-    glide[i] = patella.glide(x)[0];
-  }
-  const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(glide);
-  MjcfPatella fit;
-  std::copy(c.begin(), c.end(), fit.coefficients);
-  fit.largest_error_rad = (powers * c - glide).cwiseAbs().maxCoeff();
-  return fit;
-}
 
 std::string mjcfText(const Model& model) {
   return MjcfWriter{model}.text();

@@ -12,21 +12,12 @@ namespace sinew {
 /// that it has stands in:
 /// - a blended path point is pinned to its heaviest anchor;
 /// - the patella is a body on a hinge about the knee's axis, whose angle follows the knee by a quartic (an equality
-///   constraint): mjcfPatella() has the quartic and its largest error; with its angle set to PatellaDriver::glide()
-///   the patella is exact;
+///   constraint): patellaQuartic() has the quartic and its largest error; with its angle set to
+///   PatellaDriver::glide() the patella is exact;
 /// - the wrist ball is pronation (ulna to radius) and two hinges (radius to hand). The hand is exact; the radius
-/// turns by
-///   the clinical pronation instead of the wrist's twist, the same while flexion or deviation is zero;
+///   turns by the clinical pronation instead of the wrist's twist, the same while flexion or deviation is zero;
 /// - a ball joint's limit is one cone: the largest turn in the athlete envelope;
 /// - MuJoCo's muscle has no pennation and a rigid tendon: force F_max cos(pennation), fibre range 0.5-1.6 l0.
 std::string mjcfText(const Model& model);
-
-/// Glide angle of a patella [rad] as a polynomial of knee flexion [rad], c0 + c1 x + ... + c4 x^4, fitted over the
-/// knee's athlete range.
-struct MjcfPatella {
-  double coefficients[5] = {};
-  double largest_error_rad = 0;
-};
-MjcfPatella mjcfPatella(const Skeleton& skeleton, const PatellaDriver& patella);
 
 }  // namespace sinew

@@ -12,30 +12,6 @@ namespace {
 
 using Poses = std::vector<RigidTransform>;
 
-/// Segments along the skeleton between the segments that a unit hangs on, with the driven ones beside them: the bones
-/// that its path has to get around. Others come near it only where bodies would collide.
-std::vector<bool> chainOf(const Skeleton& skeleton, const MusculotendonUnit& unit) {
-  std::vector<bool> hung(skeleton.segments.size(), false), chain = hung;
-  for (const auto& point : unit.path)
-    for (const auto& anchor : point.anchors) hung[std::size_t(anchor.segment)] = true;
-  std::vector<int> below(skeleton.segments.size(), 0);  // hung segments at or below
-  for (std::size_t s = 0; s < hung.size(); ++s)
-    for (int a = hung[s] ? int(s) : -1; a >= 0; a = skeleton.segments[std::size_t(a)].parent) ++below[std::size_t(a)];
-  const int all = int(std::ranges::count(hung, true));
-  for (std::size_t s = 0; s < hung.size(); ++s) {
-    if (below[s] == 0) continue;
-    const bool common = below[s] == all;
-    const bool last_common =
-        common && (hung[s] || std::ranges::none_of(std::views::iota(std::size_t{0}, hung.size()), [&](std::size_t c) {
-                     return skeleton.segments[c].parent == int(s) && below[c] == all;
-                   }));
-    chain[s] = !common || last_common;
-  }
-  for (std::size_t s = skeleton.joints.size(); s < hung.size(); ++s)
-    if (const int parent = skeleton.segments[s].parent; parent >= 0 && chain[std::size_t(parent)]) chain[s] = true;
-  return chain;
-}
-
 /// One world point against the bones of some segments; keeps the deepest.
 class PointProbe {
  public:
@@ -84,6 +60,28 @@ void probePath(const MusculotendonUnit& unit, const PointProbe& probe, const Pos
 
 }  // namespace
 
+std::vector<bool> spannedSegments(const Skeleton& skeleton, const MusculotendonUnit& unit) {
+  std::vector<bool> hung(skeleton.segments.size(), false), chain = hung;
+  for (const auto& point : unit.path)
+    for (const auto& anchor : point.anchors) hung[std::size_t(anchor.segment)] = true;
+  std::vector<int> below(skeleton.segments.size(), 0);  // hung segments at or below
+  for (std::size_t s = 0; s < hung.size(); ++s)
+    for (int a = hung[s] ? int(s) : -1; a >= 0; a = skeleton.segments[std::size_t(a)].parent) ++below[std::size_t(a)];
+  const int all = int(std::ranges::count(hung, true));
+  for (std::size_t s = 0; s < hung.size(); ++s) {
+    if (below[s] == 0) continue;
+    const bool common = below[s] == all;
+    const bool last_common =
+        common && (hung[s] || std::ranges::none_of(std::views::iota(std::size_t{0}, hung.size()), [&](std::size_t c) {
+                     return skeleton.segments[c].parent == int(s) && below[c] == all;
+                   }));
+    chain[s] = !common || last_common;
+  }
+  for (std::size_t s = skeleton.joints.size(); s < hung.size(); ++s)
+    if (const int parent = skeleton.segments[s].parent; parent >= 0 && chain[std::size_t(parent)]) chain[s] = true;
+  return chain;
+}
+
 BoneDistances::BoneDistances(const Model& model) {
   for (const BoneMesh& bone : *model.bones) {
     Eigen::Vector3d low = bone.mesh.vertices.front(), high = low;
@@ -116,7 +114,7 @@ std::vector<PathPenetration> measurePenetration(const Model& model, const BoneDi
   std::atomic<std::size_t> next = 0;
   const auto work = [&](bool reports) {
     for (std::size_t u = next++; u < units.size() && !job.cancelled(); u = next++) {
-      const PointProbe probe{bones, chainOf(model.skeleton, units[u])};
+      const PointProbe probe{bones, spannedSegments(model.skeleton, units[u])};
       for (std::size_t k = 0; k < postures.size(); ++k)
         probePath(units[u], probe, X_WB[k], X_BW[k], options.step_m, static_cast<int>(k), worst[u]);
       if (reports) job.report(static_cast<double>(u) / static_cast<double>(units.size()), "path clearance");

@@ -56,6 +56,10 @@ struct ClearanceOptions {
   double step_m = 0.002;  ///< between samples along the path
 };
 
+/// By segment: does the unit span it? Segments along the skeleton between those that the unit hangs on, with the
+/// driven ones beside them: the bones that its path has to get around. Others come near it only where bodies collide.
+std::vector<bool> spannedSegments(const Skeleton& skeleton, const MusculotendonUnit& unit);
+
 /// By unit, against the bones of the segments that the unit spans (a hanging arm may well touch the hip). Sampled
 /// along the path at every posture; no part of the path is left out. A cancelled job returns what was measured so
 /// far.

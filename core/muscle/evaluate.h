@@ -34,6 +34,9 @@ struct PostureEvaluation {
 /// Everything at one posture.
 PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture);
 
+/// Fibres, passive forces and torques of an evaluation that has lengths and moment arms.
+void fillPassive(const Musculature& musculature, PostureEvaluation& evaluation);
+
 /// The torque about every clinical coordinate when all units that turn that way are fully active and hold still:
 /// sum of moment arm * force at activation 1, passive share included; the other units are left out.
 struct IsometricTorque {
@@ -53,6 +56,9 @@ struct MotionCurve {
   std::vector<double> active_force_N;  ///< share of the active element at full activation
   std::vector<double> full_torque_Nm;  ///< about the moved coordinate at full activation, passive share included
 };
+/// Adds one sample: what a unit of this length and moment arm does.
+void appendSample(const MusculotendonUnit& unit, double theta, double angle_deg, double length_m, double moment_arm_m,
+                  MotionCurve& curve);
 /// @param samples at least 2 (a bug of the caller otherwise).
 MotionCurve motionCurve(const Skeleton& skeleton, const MusculotendonUnit& unit, const JointMotion& motion,
                         int samples = 101);

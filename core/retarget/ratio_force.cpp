@@ -30,7 +30,10 @@ void setFiberTendonRatio(MusculotendonUnit& unit, double factor) {
 }
 
 RatioForce::RatioForce(const MusculotendonUnit& unit)
-    : original_{withoutPath(unit)}, unit_{original_}, cosine_{std::cos(unit.pennation_angle_at_optimal_rad)} {
+    : original_{withoutPath(unit)},
+      unit_{original_},
+      curves_{unit.curves},
+      cosine_{std::cos(unit.pennation_angle_at_optimal_rad)} {
   setFactor(1);
 }
 
@@ -50,9 +53,9 @@ CurveValue RatioForce::at(double length_m, double& start) const {
   CurveValue active, passive, tendon;
   const auto imbalance = [&] {
     tendon_m = length_m - l * l0 * cosine_;
-    active = activeForceLength(l);
-    passive = passiveForceLength(l);
-    tendon = tendonForceLength(tendon_m / slack);
+    active = curves_.active(l);
+    passive = curves_.passive(l);
+    tendon = curves_.tendon(tendon_m / slack);
     balance_slope = (active.slope + passive.slope) * cosine_ + tendon.slope * l0 * cosine_ / slack;
     return (active.value + passive.value) * cosine_ - tendon.value;
   };

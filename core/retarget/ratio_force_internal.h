@@ -18,7 +18,8 @@ class RatioForce {
   CurveValue at(double length_m, double& normalized_fiber_length) const;
 
  private:
-  MusculotendonUnit original_, unit_;             ///< without their paths
+  MusculotendonUnit original_, unit_;  ///< without their paths
+  HillCurves curves_;
   double cosine_;                                 ///< of the pennation angle
   double fiber_slope_m_ = 0, slack_slope_m_ = 0;  ///< with the factor
 };

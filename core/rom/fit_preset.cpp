@@ -7,6 +7,7 @@
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/rom/movement_internal.h"
+#include "core/rom/range_postures.h"
 
 namespace sinew {
 namespace {
@@ -19,7 +20,11 @@ std::vector<LengthEstimate> lengthsOfPoses(const Skeleton& skeleton, const Muscu
   const Musculature right{{published.units.begin(), published.units.begin() + half}};
   const PathLimits limits = longestPaths(
       skeleton, right, [&](const PoseVisitor& visit) { samplePoses(skeleton, preset, norms.tests, poses, visit); });
-  auto estimates = estimateLengths(skeleton, right, limits, restingPostures(skeleton));
+  const auto single_motions = rangePostures(skeleton, 10, 0);
+  const PathLimits working = longestPaths(skeleton, right, [&](const PoseVisitor& visit) {
+    for (const Posture& q : single_motions) visit(q);
+  });
+  auto estimates = estimateLengths(skeleton, right, limits, restingPostures(skeleton), {}, working.shortest_m);
   for (std::ptrdiff_t i = 0; i < half; ++i) {
     estimates.push_back(estimates[static_cast<std::size_t>(i)]);
     estimates.back().unit = published.units[static_cast<std::size_t>(half + i)].name;

@@ -10,11 +10,12 @@
 namespace sinew {
 
 // The muscle lengths of a preset. Ryu et al.: from the pose set, then lengthened where the key postures would make
-// them pull. A pose set only says that a posture was reached, not with what effort; so the clinical tests are key
-// postures too, with the examiner's moment as their threshold: all the way to the angle that people reach, the
-// passive moment may not exceed it. Units that pull against the movement more than a common share of their F_max are
-// lengthened (ratio kept) to that share, which is as large as the threshold allows: one number a posture, none a
-// muscle. Lengthening keeps every posture of the set valid.
+// them pull; fibres should still work where one coordinate of the skeleton, in its normal range, makes them shortest.
+// A pose set only says that a posture was reached, not with what effort; so the clinical tests are key postures too,
+// with the examiner's moment as their threshold: all the way to the angle that people reach, the passive moment may
+// not exceed it. Units that pull against the movement more than a common share of their F_max are lengthened (ratio
+// kept) to that share, which is as large as the threshold allows: one number a posture, none a muscle. Lengthening
+// keeps every posture of the set valid.
 
 struct PresetFitOptions {
   PoseSampleOptions poses;

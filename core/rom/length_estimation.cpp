@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "core/error.h"
 #include "core/muscle/hill.h"
@@ -50,9 +51,16 @@ LengthEstimate fitted(const MusculotendonUnit& unit, double longest_path_m, std:
   return e;
 }
 
-/// The same, but a fibre that would stand too short takes length from its tendon.
+double fiberAt(const LengthEstimate& e, MusculotendonUnit unit, double path_m) {
+  unit.optimal_fiber_length_m = e.optimal_fiber_length_m;
+  unit.tendon_slack_length_m = e.tendon_slack_length_m;
+  return equilibrium(unit, path_m, 0).normalized_fiber_length;
+}
+
+/// The same, but a fibre that would stand or work too short takes length from its tendon.
 LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longest_path_m,
                                      std::span<const double> resting_paths_m,
+                                     std::optional<double> shortest_working_m,
                                      const LengthEstimationOptions& options) {
   const auto fit = [&](double ratio) {
     MusculotendonUnit changed = unit;
@@ -61,8 +69,16 @@ LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longe
     e.ratio = ratio;
     return e;
   };
+  // A unit that this does not cure, or not with a fibre like published ones, keeps the published ratio: half a cure
+  // would change it for nothing.
+  const auto cures = [&](const LengthEstimate& most) {
+    return fiberAt(most, unit, *shortest_working_m) >= options.least_working_fiber &&
+           most.optimal_fiber_length_m <= options.longest_fiber_of_published * unit.optimal_fiber_length_m;
+  };
+  const bool works = shortest_working_m && cures(fit(options.smallest_ratio));
   const auto usable = [&](const LengthEstimate& e) {
-    return e.resting_normalized_fiber >= options.shortest_resting_fiber;
+    return e.resting_normalized_fiber >= options.shortest_fiber &&
+           (!works || fiberAt(e, unit, *shortest_working_m) >= options.shortest_fiber);
   };
   double low = options.smallest_ratio, high = 1;
   if (const LengthEstimate unchanged = fit(high); usable(unchanged)) return unchanged;
@@ -77,7 +93,11 @@ LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longe
 
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
                                             const PathLimits& limits, std::span<const Posture> resting,
-                                            const LengthEstimationOptions& options) {
+                                            const LengthEstimationOptions& options,
+                                            const Eigen::VectorXd& shortest_working_m) {
+  require(shortest_working_m.size() == 0 ||
+              shortest_working_m.size() == static_cast<Eigen::Index>(musculature.units.size()),
+          "estimateLengths: one working path a unit");
   require(!resting.empty(), "estimateLengths: resting postures are given");
   std::vector<Poses> resting_poses;
   for (const Posture& q : resting) resting_poses.push_back(segmentPoses(skeleton, q));
@@ -86,7 +106,9 @@ std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musc
     std::vector<double> resting_paths_m;
     for (const Poses& X_WB : resting_poses) resting_paths_m.push_back(pathLength(unit, X_WB));
     const auto i = static_cast<Eigen::Index>(estimates.size());
-    estimates.push_back(fittedWithUsableFiber(unit, limits.longest_m[i], resting_paths_m, options));
+    std::optional<double> working_m;
+    if (shortest_working_m.size() > 0) working_m = shortest_working_m[i];
+    estimates.push_back(fittedWithUsableFiber(unit, limits.longest_m[i], resting_paths_m, working_m, options));
     estimates.back().shortest_path_m = limits.shortest_m[i];
   }
   return estimates;
@@ -110,7 +132,7 @@ std::string lengthsCsv(const std::vector<LengthEstimate>& estimates, const std::
       "# sinew.reference_lengths 1: right side; made by sinew-fit-lengths from muscles.csv, muscle_paths.csv, the "
       "skeleton and " +
       made_from +
-      ": longest path over the pose set, published fibre : tendon ratio, no pull at rest\n"
+      ": longest path over the pose set, fibre : tendon ratio within 30 % of the published, no pull at rest\n"
       "muscle,optimal_fiber_length_m,tendon_slack_length_m,longest_path_m,shortest_path_m,scale_of_published,"
       "tendon_share_of_published,relaxed,standing_normalized_fiber_length,shortest_normalized_fiber_length,"
       "longest_normalized_fiber_length\n";

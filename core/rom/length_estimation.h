@@ -13,7 +13,8 @@ namespace sinew {
 // Fibre and tendon lengths from what the body can do (Ryu et al., Length estimation): the longest length of a unit,
 // 1.6 l0 + 1.03 l_slack, is the longest path over all postures; the published fibre : tendon ratio is kept. A path
 // that is long at rest too would then pull at rest; such a unit is lengthened, ratio kept, until its passive force in
-// every resting posture is below a small share of F_max. See docs/methods/range_of_motion.md.
+// every resting posture is below a small share of F_max. A fibre that would be too short to work, standing or at the
+// short end of the normal range, takes length from its tendon. See docs/methods/range_of_motion.md.
 
 struct LengthEstimate {
   std::string unit;
@@ -29,17 +30,23 @@ struct LengthEstimate {
          longest_normalized_fiber = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Tendon becomes fibre until a unit has its shortest fibre, in the first resting posture and on its working path.
+/// The working path counts only where the least fibre can be had within the two bounds.
 struct LengthEstimationOptions {
-  double resting_force_share = 0.008;   ///< of F_max; the fibre is then at 1.09 l0
-  double shortest_resting_fiber = 0.5;  ///< in optimal lengths, first resting posture; below, tendon becomes fibre
-  double smallest_ratio = 0.7;          ///< but no more than this (the 30 % of Ryu et al., fibre : tendon ratio)
+  double resting_force_share = 0.008;        ///< of F_max; the fibre is then at 1.09 l0
+  double shortest_fiber = 0.5;               ///< in optimal lengths
+  double least_working_fiber = 0.4;          ///< in optimal lengths
+  double smallest_ratio = 0.7;               ///< of the given tendon : fibre; the 30 % of Ryu et al.
+  double longest_fiber_of_published = 1.35;  ///< of the given fibre: two standard deviations between people
 };
 
 /// One estimate a unit, in the order of `musculature`; `limits` are its paths over a pose set, `resting` the key
-/// postures (at least one).
+/// postures (at least one). `shortest_working_m`: path of each unit on which its fibre should still work [m]; not
+/// asked for if empty.
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
                                             const PathLimits& limits, std::span<const Posture> resting,
-                                            const LengthEstimationOptions& options = {});
+                                            const LengthEstimationOptions& options = {},
+                                            const Eigen::VectorXd& shortest_working_m = {});
 
 /// `musculature` with these lengths.
 Musculature withLengths(Musculature musculature, const std::vector<LengthEstimate>& estimates);

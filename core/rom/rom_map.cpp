@@ -23,14 +23,6 @@ Eigen::Vector3d shaftOf(const Skeleton& skeleton, const Joint& joint) {
   return end.p_BCom.normalized();
 }
 
-/// The most anterior (for the hand: palmar) direction normal to the shaft; a shaft that points forward itself has the
-/// superior one.
-RomMapFrame frameOf(const Skeleton& skeleton, const Joint& joint) {
-  const Eigen::Vector3d shaft = shaftOf(skeleton, joint);
-  const Eigen::Vector3d ahead = std::abs(shaft.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-  return {shaft, (ahead - shaft * shaft.dot(ahead)).normalized()};
-}
-
 void clearCellsBeyondEnvelope(const Skeleton& skeleton, const Joint& joint, RomMap& map) {
   for (int t = 0; t < RomMap::kTwists; ++t)
     for (int p = 0; p < RomMap::kPolars; ++p)
@@ -40,6 +32,14 @@ void clearCellsBeyondEnvelope(const Skeleton& skeleton, const Joint& joint, RomM
 }
 
 }  // namespace
+
+// The most anterior (for the hand: palmar) direction normal to the shaft; a shaft that points forward itself has the
+// superior one.
+RomMapFrame romMapFrame(const Skeleton& skeleton, int joint) {
+  const Eigen::Vector3d shaft = shaftOf(skeleton, skeleton.joints[joint]);
+  const Eigen::Vector3d ahead = std::abs(shaft.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  return {shaft, (ahead - shaft * shaft.dot(ahead)).normalized()};
+}
 
 double RomMap::twist_rad(int twist) {
   return -kPi + (twist + 0.5) * (2 * kPi / kTwists);
@@ -76,7 +76,7 @@ RomMap romMap(const Model& model, const std::string& joint_name, const Posture& 
   if (model.skeleton.joints[joint].type != JointType::Ball)
     throw InputError{{"range-of-motion map", "joint", "a ball-and-socket joint", "'" + joint_name + "'"}};
   require(held.size() == model.skeleton.coordinateCount(), "romMap: one entry a coordinate");
-  RomMap map{joint_name, frameOf(model.skeleton, model.skeleton.joints[joint]), {}};
+  RomMap map{joint_name, romMapFrame(model.skeleton, joint), {}};
   map.valid = cellsWithinMuscles(model, joint, held, map);
   if (options.joint_limits) clearCellsBeyondEnvelope(model.skeleton, model.skeleton.joints[joint], map);
   return map;

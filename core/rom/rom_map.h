@@ -41,6 +41,9 @@ struct RomMap {
   double twistWidth_rad(int polar, int azimuth) const;
 };
 
+/// Axes of the map of a ball joint.
+RomMapFrame romMapFrame(const Skeleton& skeleton, int joint);
+
 struct RomMapOptions {
   bool joint_limits = true;  ///< the joint's bony and ligament envelope counts too, not only the muscles
 };

@@ -10,7 +10,7 @@ set(rules
   "app/widgets|\"app/cli/|<(opencv2|dcmtk)"
   "app/cli|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)")
 # Public headers show std and Eigen only; what a solver or a file needs stays in .cpp and *_residuals.h, *_json.h.
-set(hidden "<(ceres|nlohmann|opencv2|dcmtk|openssl)")
+set(hidden "<(ceres|nlohmann|opencv2|dcmtk|openssl|pugixml)")
 
 set(bad "")
 foreach(rule ${rules})

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "imaging/radiograph.h"
 #include "tests/support/resources.h"
+#include "tests/support/retarget_reference.h"
 #include "tests/support/temporary_folder.h"
 
 namespace sinew {
@@ -23,8 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const Model& referenceModel() {
-  static const Model model = loadReferenceModel(test::resourceDir());
-  return model;
+  return test::retargetReference()->model();
 }
 
 std::string complaintOf(const std::function<void()>& action) {
@@ -62,7 +62,7 @@ class PipelineTest : public ::testing::Test {
     options.resource_dir = test::resourceDir();
     options.seed = 3;
     options.binning = 4;  // small images: what is in them does not matter here
-    const auto patient = drawSyntheticPatient(referenceModel(), options);
+    const auto patient = drawSyntheticPatient(*test::retargetReference(), options);
     c_.patient = patient.patient;
     c_.sightings = patient.sightings;
     c_.exam = patient.exam;
@@ -73,6 +73,7 @@ class PipelineTest : public ::testing::Test {
     context_.resource_dir = test::resourceDir();
     context_.case_dir = folder_.path();
     context_.reference = &referenceModel();
+    context_.retargeting = test::retargetReference;
     context_.write_report = [](const Case&, const std::filesystem::path&, const std::filesystem::path& pdf) {
       writeFileAtomically(pdf, "%PDF-1.7 test");
     };
@@ -202,7 +203,7 @@ TEST(Pipeline, ARealWristPairIsTriangulatedAndThenLacksKnownLandmarks) {
     c.sightings.push_back({cells[0], 1, {value(3), value(4)}, 0.5});
     truth_m[cells[0]] = Eigen::Vector3d{value(5), value(6), value(7)} / 1000;
   }
-  PipelineContext context{test::resourceDir(), folder.path(), &referenceModel(), {}};
+  PipelineContext context{test::resourceDir(), folder.path(), &referenceModel(), {}, {}};
   for (const Stage stage : {Stage::Images, Stage::Calibration, Stage::Landmarks}) c = runStage(c, stage, context);
   ASSERT_EQ(c.landmarks->points.size(), 4u);
   EXPECT_LT(c.landmarks->rms_px, 0.5);

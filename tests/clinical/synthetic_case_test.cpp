@@ -8,14 +8,14 @@
 #include "core/file.h"
 #include "imaging/rig_from_dicom.h"
 #include "tests/support/resources.h"
+#include "tests/support/retarget_reference.h"
 #include "tests/support/temporary_folder.h"
 
 namespace sinew {
 namespace {
 
-const Model& reference() {
-  static const Model model = loadReferenceModel(test::resourceDir());
-  return model;
+const RetargetReference& reference() {
+  return *test::retargetReference();
 }
 /// Sixteenth-size images: what is tested here does not depend on resolution.
 SyntheticOptions smallOptions(unsigned seed = 1, SyntheticRig rig = SyntheticRig::ConeBeam) {
@@ -59,7 +59,7 @@ TEST(DrawSyntheticPatient, ExaminationShowsTheContractures) {
   const auto options = smallOptions(5);
   const auto patient = drawSyntheticPatient(reference(), options);
   const ExamProtocol protocol = loadExamProtocol(options.resource_dir);
-  const Model free = deformedModel(reference(), patient.shape);
+  const Model free = retarget(reference(), patient.shape).model;
   ASSERT_EQ(patient.exam.entries.size(), 2 * protocol.tests.size());
   EXPECT_TRUE(checkExam(patient.exam, protocol).size() <= patient.exam.entries.size());  // accepted: it would throw
   for (const auto& entry : patient.exam.entries) {
@@ -84,7 +84,7 @@ TEST(DrawSyntheticPatient, ExaminationShowsTheContractures) {
 TEST(RenderRadiograph, ShowsBonesWhereTheyProjectAndTheSameOnEveryRun) {
   const auto options = smallOptions(2);
   const auto patient = drawSyntheticPatient(reference(), options);
-  const Model model = deformedModel(reference(), patient.shape);
+  const Model model = deformedModel(reference().model(), patient.shape);
   const View& view = patient.true_rig.views[0];
   const auto image = renderRadiograph(model, patient.posture, view, options, "AP");
   ASSERT_EQ(image.width_px, view.width_px);
@@ -111,7 +111,7 @@ TEST(WriteSyntheticCase, MakesACaseThatLoadsWithGeometryInItsFiles) {
     options.binning = 8;
     const test::TemporaryFolder folder;
     const auto patient = drawSyntheticPatient(reference(), options);
-    const Case written = writeSyntheticCase(patient, reference(), options, folder.path());
+    const Case written = writeSyntheticCase(patient, reference().model(), options, folder.path());
     const Case c = loadCase(folder.path());
     EXPECT_EQ(c, written);
     EXPECT_TRUE(c.stages.empty());
@@ -139,7 +139,7 @@ TEST(WriteSyntheticCase, LeavesNoCaseWhenCancelled) {
   const test::TemporaryFolder folder;
   std::stop_source stop;
   stop.request_stop();
-  writeSyntheticCase(drawSyntheticPatient(reference(), options), reference(), options, folder.path(),
+  writeSyntheticCase(drawSyntheticPatient(reference(), options), reference().model(), options, folder.path(),
                      {{}, stop.get_token()});
   EXPECT_FALSE(std::filesystem::exists(folder / "case.json"));
 }

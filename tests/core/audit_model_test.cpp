@@ -66,7 +66,7 @@ TEST(AuditOfAFaultyModel, CatchesEverySeededFault) {
   };
   using testing::Contains;
   using Unit = MusculotendonUnit;
-  for (const char* unit : {"soleus_medial_r", "gracilis_l", "multifidus_cervicis_r", "external_oblique_middle_l",
+  for (const char* unit : {"soleus_medial_r", "gracilis_l", "multifidus_cervicis_r", "external_oblique_posterior_l",
                            "flexor_carpi_radialis_r", "trapezius_acromial_l"}) {
     const std::string name = unit;
     EXPECT_THAT(after(unit, [](Unit& u) { u.max_isometric_force_N *= 10; }),

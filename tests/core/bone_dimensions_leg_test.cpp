@@ -10,6 +10,8 @@
 namespace sinew::test {
 namespace {
 
+constexpr double kRad = 3.14159265358979 / 180;
+
 /// Centre line of a shaft: centres of sections across y.
 std::vector<Vector3d> centerLine(const std::string& bone, double from_mm, double to_mm, int sections = 12) {
   std::vector<Vector3d> line;
@@ -64,6 +66,9 @@ TEST(BoneDimensions, Femur) {
   const double lateral = front(8, 35), medial = front(-35, -8);
   const double deepest = front(-1, 3);
   const auto bow = centerLine("femur", -70, -366, 25);
+  const double bow_chord = (bow.back() - bow.front()).norm(), bow_height = sagitta(bow, kX);
+  const Vector3d lowest =
+      furthest(points_mm("femur", between(kZ, 8, 40)), -kY) - furthest(points_mm("femur", between(kZ, -40, -8)), -kY);
   expectDimensions(
       "femur",
       {{"head diameter", 48, 48, 2 * head.radius},
@@ -75,8 +80,11 @@ TEST(BoneDimensions, Femur) {
        {"mechanical length", 422, 422, landmark_mm("knee_center_r").norm()},
        {"shaft diameter, sagittal", 27, 28, extent_mm(middle.points, kX)},
        {"shaft diameter, frontal", 27, 28, extent_mm(middle.points, kZ)},
-       {"sagitta of the bow", 9, 10, sagitta(bow, kX)},
+       {"sagitta of the bow", 9, 10, bow_height},
+       {"radius of the bow", 1100, 1200, (bow_chord * bow_chord / (4 * bow_height) + bow_height) / 2},
        {"anatomical to mechanical axis", 6, 6, angle_deg(across(shaft_axis, normal), -kY)},
+       // Of the shaft to the perpendicular of the tangent below both condyles, in the frontal plane.
+       {"bicondylar angle", 9, 10, angle_deg(across(shaft_axis, kX), kX.cross(across(lowest, kX)))},
        {"epicondylar width", 82, 82, extent_mm(points_mm("femur", between(kY, -432, -404)), kZ)},
        {"condylar depth", 62, 65, extent_mm(points_mm("femur", between(kY, -450, -390)), kX)},
        {"posterior condyle radius, medial", 21, 22, condyleCircle(-24)},
@@ -86,9 +94,17 @@ TEST(BoneDimensions, Femur) {
 
 TEST(BoneDimensions, Patella) {
   const auto all = points_mm("patella");
+  // In extension, in the frame of the tibia; the ligament ends where the tuberosity stands out most.
+  const Vector3d center = 46 * Vector3d{std::cos(12.5 * kRad), std::sin(12.5 * kRad), 0};
+  const auto tuberosity = points_mm("tibia", between(kY, -75, -40) && between(kZ, -8, 14));
+  const double ligament = (center + furthest(all, -kY) - furthest(tuberosity, kX)).norm();
   expectDimensions("patella", {{"height", 42, 45, extent_mm(all, kY)},
                                {"width", 44, 46, extent_mm(all, kZ)},
-                               {"thickness", 20, 24, extent_mm(all, kX)}});
+                               {"thickness", 20, 24, extent_mm(all, kX)},
+                               {"articular ridge behind the centre", 10, 10,
+                                -furthest(points_mm("patella", between(kY, -4, 10)), -kX).x()},
+                               {"ligament, apex to tuberosity", 45, 55, ligament},
+                               {"Insall-Salvati ratio", 0.8, 1.2, ligament / extent_mm(all, kY)}});
 }
 
 TEST(BoneDimensions, Tibia) {
@@ -121,7 +137,7 @@ TEST(BoneDimensions, Tibia) {
                               landmark_mm("tibial_plafond_center_r").y() * -1 + mean(surfaces).y()},
                              {"plateau width", 75, 75, extent_mm(plateau, kZ)},
                              {"plateau depth", 50, 50, extent_mm(rim, level)},
-                             {"posterior slope", 7, 9, angle_deg(slope, kY)},
+                             {"posterior slope", 7, 9, angle_deg(across(slope, kZ), kY)},
                              {"plateau below the knee axis", 28, 28, -mean(surfaces).y()},
                              {"torsion", 23, 30, turn(behind) - turn(malleoli)},
                              {"mid shaft, sagittal", 29, 29, extent_mm(middle.points, kX)},
@@ -134,7 +150,8 @@ TEST(BoneDimensions, Tibia) {
 
 TEST(BoneDimensions, Fibula) {
   const Section middle = section("fibula", -230 * kY, kY);
-  expectDimensions("fibula", {{"mid diameter, sagittal", 13, 15, extent_mm(middle.points, kX)},
+  expectDimensions("fibula", {{"length", 382, 382, extent_mm(points_mm("fibula"), kY), 409},
+                              {"mid diameter, sagittal", 13, 15, extent_mm(middle.points, kX)},
                               {"mid diameter, frontal", 13, 15, extent_mm(middle.points, kZ)}});
 }
 
@@ -148,12 +165,15 @@ TEST(BoneDimensions, Foot) {
   const Vector3d lowest = furthest(points_mm("calcaneus", between(kX, -60, -30)), -kY);
   const Vector3d front = furthest(points_mm("calcaneus", between(kX, 5, 30)), -kY);
   const Vector3d malleoli = landmark_mm("lateral_malleolus_r") - landmark_mm("medial_malleolus_r");
-  expectDimensions("foot", {{"length with skin 3 mm", 258, 258, toe.x() - heel.x() + 3},
-                            {"talar dome radius", 20, 21, fittedCircle(flat, axis).radius},
-                            {"calcaneus length", 80, 82, extent_mm(points_mm("calcaneus"), kX)},
-                            {"calcaneal pitch", 20, 25, angle_deg(across(front - lowest, kZ), kX)},
-                            {"malleoli to the tibia, frontal", 82, 82, angle_deg(across(malleoli, kX), -kY), 79},
-                            {"malleoli turned outwards", 20, 30, angle_deg(across(malleoli, kY), kZ), 18}});
+  const auto heads = points_mm("metatarsals", between(kX, 90, 140));
+  expectDimensions("foot",
+                   {{"length with skin 3 mm", 258, 258, toe.x() - heel.x() + 3},
+                    {"breadth at the heads with 6 mm of skin on either side", 98, 102, extent_mm(heads, kZ) + 12},
+                    {"talar dome radius", 20, 21, fittedCircle(flat, axis).radius},
+                    {"calcaneus length", 80, 82, extent_mm(points_mm("calcaneus"), kX)},
+                    {"calcaneal pitch", 20, 25, angle_deg(across(front - lowest, kZ), kX)},
+                    {"malleoli to the tibia, frontal", 82, 82, angle_deg(across(malleoli, kX), -kY), 79},
+                    {"malleoli turned outwards", 20, 30, angle_deg(across(malleoli, kY), kZ), 18}});
 }
 
 }  // namespace

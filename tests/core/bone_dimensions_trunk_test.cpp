@@ -102,17 +102,21 @@ TEST(BoneDimensions, Sacrum) {
 /// A vertebral body, found by rays from its centre.
 struct Body {
   Vector3d center, up;  ///< up: out of the upper endplate
+  Vector3d lower_up;    ///< into the lower endplate
   double depth, width, height;
   double lower_width;  ///< at the lower endplate, away from uncinate processes
 };
 /// `size_mm` about half the depth: how far from the centre the endplates are probed.
 Body bodyOf(const std::string& bone, const Vector3d& guess_up, double size_mm) {
   const Vector3d center = landmark_mm(bone + "_body_center"), forward = guess_up.cross(kZ);
-  const auto top = [&](double offset) -> Vector3d {
-    const Vector3d start = center + offset * forward;
-    return start + reach_mm(bone, start, guess_up) * guess_up;
+  const auto endplate = [&](const Vector3d& out) -> Vector3d {  // normal of it, upwards
+    const auto at = [&](double offset) -> Vector3d {
+      const Vector3d start = center + offset * forward;
+      return start + reach_mm(bone, start, out) * out;
+    };
+    return kZ.cross(at(0.5 * size_mm) - at(-0.5 * size_mm)).normalized();
   };
-  Body body{center, kZ.cross(top(0.5 * size_mm) - top(-0.5 * size_mm)).normalized(), 0, 0, 0, 0};
+  Body body{center, endplate(guess_up), endplate(-guess_up), 0, 0, 0, 0};
   const double above = reach_mm(bone, center, body.up), below = reach_mm(bone, center, -body.up);
   body.height = above + below;
   const Vector3d ahead = body.up.cross(kZ);
@@ -123,6 +127,15 @@ Body bodyOf(const std::string& bone, const Vector3d& guess_up, double size_mm) {
   }
   body.lower_width = 2 * reach_mm(bone, center + (1.2 - below) * body.up + 0.1 * size_mm * ahead, kZ);
   return body;
+}
+/// How far a direction leans forwards.
+double lean_deg(const Vector3d& up) {
+  return kDeg * std::atan2(up.x(), up.y());
+}
+/// From the end of a process to where the tip is stated; bones.md means its points to 5 mm.
+Dimension tip(const std::string& bone, const std::string& process, const Vector3d& towards, const Vector3d& stated) {
+  const Vector3d end = furthest(points_mm(bone), towards);
+  return {bone + " " + process + " to the stated point", 0, 5, (end - stated).norm()};
 }
 /// Up with a given forward component.
 Vector3d leaning(double x) {
@@ -144,6 +157,13 @@ TEST(BoneDimensions, LumbarColumn) {
     rows.push_back({bone + " body width", 45, 51, body.width});
     rows.push_back({bone + " body height", 27, 28, body.height});
     rows.push_back({bone + " spinous tip behind the body", 70, 80, center.x() - spinous.x()});
+    rows.push_back(tip(bone, "spinous tip", -kX, center - Vector3d{75, 8, 0}));
+    // Superior articular and mammillary process: what stands out sideways, behind and above the body's middle.
+    const auto mammillary = points_mm(bone, between(kX, center.x() - 60, center.x() - 30) &&
+                                                between(kY, center.y() + 5, center.y() + 30) && between(kZ, 8, 30));
+    rows.push_back({bone + " mammillary process, lateral", 18, 22, furthest(mammillary, kZ).z()});
+    rows.push_back(
+        {bone + " mammillary process behind the body", 38, 38, center.x() - furthest(mammillary, -kX).x()});
     rows.push_back({bone + " transverse tip, lateral", 42, 47, transverse.z()});
     rows.push_back({bone + " transverse tip behind the body", 32, 36, center.x() - transverse.x()});
   }
@@ -161,12 +181,18 @@ TEST(BoneDimensions, ThoracicColumn) {
     const Body body = bodyOf(bone, leaning(up_x), 9);
     rows.push_back({std::string{bone} + " body width", 28, 42, body.width});
     rows.push_back({std::string{bone} + " body depth", 17, 32, body.depth});
-    if (std::string{bone} == "t4")
-      rows.push_back({"t4 transverse tip, lateral", 30, 36, furthest(points_mm(bone), kZ).z()});
+    if (std::string{bone} == "t12") continue;  // its transverse process is but a stump
+    const Vector3d transverse = furthest(points_mm(bone), kZ);
+    rows.push_back({std::string{bone} + " transverse tip, lateral", 30, 36, transverse.z()});
+    rows.push_back({std::string{bone} + " transverse tip behind the body", 28, 28, body.center.x() - transverse.x()});
   }
   const Vector3d t4 = bodyOf("t4", leaning(0.182), 9).up;
   const Vector3d t12 = bodyOf("t12", leaning(-0.3), 9).up;
   rows.push_back({"kyphosis T4-T12", 35, 45, angle_deg(t4, t12)});
+  rows.push_back(tip("t1", "spinous tip", -kX, {-58, 255, 0}));
+  rows.push_back(tip("t4", "spinous tip", -kX, {-85, 195, 0}));
+  rows.push_back(tip("t8", "spinous tip", -kX, {-88, 90, 0}));
+  rows.push_back(tip("t12", "spinous tip", -kX, {-68, 5, 0}));
   expectDimensions("thoracic", rows);
 }
 
@@ -188,12 +214,20 @@ TEST(BoneDimensions, RibCage) {
 
 TEST(BoneDimensions, CervicalColumn) {
   std::vector<Dimension> rows;
-  for (const auto& [bone, up_x] : {std::pair{"c7", 0.208}, {"c5", 0.139}, {"c3", 0.0}}) {
+  for (const auto& [bone, up_x] : {std::pair{"c7", 0.342}, {"c5", 0.19}, {"c3", 0.04}}) {
     const Body body = bodyOf(bone, leaning(up_x), 7);
     rows.push_back({std::string{bone} + " body depth", 15, 17, body.depth});
     rows.push_back({std::string{bone} + " body width", 17, 24, body.lower_width});
     rows.push_back({std::string{bone} + " transverse tubercle, lateral", 26, 34, furthest(points_mm(bone), kZ).z()});
   }
+  rows.push_back(tip("c1", "transverse process", kZ, {6, 106, 40}));
+  rows.push_back(tip("c2", "spinous tip", -kX, {-30, 91, 0}));
+  rows.push_back(tip("c5", "spinous tip", -kX, {-40, 40, 0}));
+  rows.push_back(tip("c7", "spinous tip", -kX, {-56, 3, 0}));
+  // Between the lower endplates of C2 and C7 (Cobb).
+  rows.push_back(
+      {"lordosis C2-C7", 20, 35,
+       lean_deg(bodyOf("c7", leaning(0.342), 7).lower_up) - lean_deg(bodyOf("c2", leaning(0), 7).lower_up)});
   expectDimensions("cervical", rows);
 }
 

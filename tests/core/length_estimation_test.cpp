@@ -87,6 +87,33 @@ TEST(LengthEstimation, AFiberThatWouldStandTooShortTakesLengthFromItsTendon) {
               1e-9);
 }
 
+TEST(LengthEstimation, AFiberThatWouldWorkTooShortTakesLengthFromItsTendonIfThatCures) {
+  const std::vector<Posture> straight{zeroPosture(skeleton())},
+      bent{postureFromDegrees(skeleton(), {{"knee_flexion_r", 60}})};
+  for (const double fiber_m : {0.10, 0.07, 0.02}) {  // works as it is; is cured; cannot be cured
+    const Musculature muscles{{kneeUnit(fiber_m, 0.22 - 1.09 * fiber_m)}};  // as long as the path at rest
+    const PathLimits limits = limitsOver(muscles, straight), working = limitsOver(muscles, bent);
+    const auto estimate = [&](const LengthEstimationOptions& options) {
+      return estimateLengths(skeleton(), muscles, limits, straight, options, working.shortest_m).front();
+    };
+    const auto fiber = [&](const LengthEstimate& e) {
+      return equilibrium(withLengths(muscles, {e}).units[0], working.shortest_m[0], 0).normalized_fiber_length;
+    };
+    const LengthEstimate kept = estimate({.smallest_ratio = 1}), changed = estimate({});
+    if (fiber_m == 0.07) {
+      EXPECT_LT(fiber(kept), 0.4);
+      EXPECT_GE(fiber(changed), 0.4);
+      EXPECT_GE(changed.ratio, 0.7);
+      EXPECT_LE(changed.optimal_fiber_length_m, 1.35 * fiber_m);
+      EXPECT_LT(estimate({.longest_fiber_of_published = 1.01}).optimal_fiber_length_m,
+                changed.optimal_fiber_length_m);  // bounded: left as published
+    } else {
+      EXPECT_EQ(changed.ratio, 1);
+      EXPECT_EQ(fiber(changed) >= 0.5, fiber_m == 0.10);
+    }
+  }
+}
+
 TEST(LengthEstimation, StoredLengthsAreNeverShorterThanTheFit) {
   const Musculature muscles{{kneeUnit(0.1, 0.05)}};
   const std::vector<Posture> straight{zeroPosture(skeleton())};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/bench/mujoco_peer.h"
+#include "core/foreign/foreign_from_model.h"
 #include "core/muscle/muscle_path.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"
@@ -48,7 +49,7 @@ TEST(Mjcf, NamesCannotBreakTheDocument) {
 TEST(Mjcf, ThePatellaIsAQuarticOfTheKneeWithin2Degrees) {
   constexpr double kStated_rad = 2 * std::numbers::pi / 180;  // docs/methods/model_exchange.md
   const Skeleton& s = reference().skeleton;
-  const MjcfPatella fit = mjcfPatella(s, s.patellae[0]);
+  const PatellaQuartic fit = patellaQuartic(s, s.patellae[0]);
   EXPECT_LT(fit.largest_error_rad, kStated_rad);
   EXPECT_GT(fit.coefficients[1], 0.5);  // it follows the knee
 }
@@ -118,6 +119,25 @@ TEST(MjcfInMujoco, TheOthersDeviateAsStated) {
       driven_m.size(), 1000 * std::ranges::max(driven_m), blended_m.size(), 1000 * median_m, 1000 * blended_m.back(),
       worst.c_str());
   EXPECT_LT(median_m, kBlendedMedian_m);
+}
+
+/// What `sinew export` reports is what MuJoCo has: our own evaluation of pinned points, with the patella at its exact
+/// glide.
+TEST(MjcfInMujoco, LengthsAreThoseOfTheModelInBetween) {
+  const auto mujoco = MujocoPeer::make(reference());
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  const Skeleton& s = reference().skeleton;
+  const ForeignModel foreign = foreignFromModel(reference(), {.blended = ForeignOptions::Blended::HeaviestAnchor});
+  constexpr double kSpline_m = 1e-6;  // of the patella
+  std::mt19937_64 random{47};
+  for (int trial = 0; trial < 20; ++trial) {
+    const Posture q = postureFromClinical(s, test::randomClinical(s, random));
+    mujoco->setPositions(mujoco->positions(q));
+    mujoco->lengthsAndGradients();
+    const Eigen::VectorXd length_m = foreignLengths(foreign, foreignPosture(foreign, s, q));
+    for (Eigen::Index u = 0; u < length_m.size(); ++u)
+      EXPECT_NEAR(mujoco->length_m(int(u)), length_m[u], kSpline_m) << foreign.musculature.units[std::size_t(u)].name;
+  }
 }
 
 /// Pinned points lie where the blended ones lie in the posture in which they are pinned.

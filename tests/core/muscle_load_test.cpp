@@ -38,7 +38,7 @@ TEST(ReferenceMusculature, HasAllUnitsWithTheirFigures) {
   EXPECT_DOUBLE_EQ(m.unit("soleus_medial_l").max_isometric_force_N, 3097.4);
 }
 
-TEST(ReferenceMusculature, FitKeepsThePublishedRatioOfFiberAndTendon) {
+TEST(ReferenceMusculature, FitKeepsTheRatioOfFiberAndTendonWithinThirtyPercentOfThePublished) {
   const Musculature published = loadPublishedMusculature(test::resourceDir(), skeleton());
   const Musculature fitted = loadMusculature(test::resourceDir(), skeleton());
   int changed = 0;
@@ -49,8 +49,13 @@ TEST(ReferenceMusculature, FitKeepsThePublishedRatioOfFiberAndTendon) {
     EXPECT_LE(ratio, 1.01) << fitted.units[i].name;
     EXPECT_GE(ratio, 0.7 - 0.01) << fitted.units[i].name;
     changed += ratio < 0.99;
+    for (const char* of_a_coupling :
+         {"rectus_femoris", "biceps_femoris_long_head", "semi", "gastrocnemius", "soleus", "gracilis"})
+      if (fitted.units[i].name.starts_with(of_a_coupling) && !fitted.units[i].name.starts_with("semispinalis")) {
+        EXPECT_NEAR(ratio, 1, 0.01) << fitted.units[i].name;
+      }
   }
-  EXPECT_LE(changed, 2 * 2);  // iliocostalis lumborum (lumbar part), pectoralis major (abdominal part)
+  EXPECT_LE(changed, 2 * 24);  // those whose fibres would not work over the normal range
 }
 
 TEST(ReferenceMusculature, BlendedPointsAreTheSamePlaceForEveryAnchorAtTheZeroPosture) {

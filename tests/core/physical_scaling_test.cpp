@@ -176,6 +176,21 @@ TEST(WithPhysics, FactorsOfMassAndStrength) {
             1e-12);
 }
 
+TEST(WithPhysics, TheChildHasTheMassAndHeightOfSevenYears) {
+  const BodyDescription body = loadShapePreset(test::resourceDir(), "child");
+  const Model child = withPhysics(deformedModel(reference(), body.shape), reference(), body.physics);
+  double mass_kg = 0, low_m = 1e9, high_m = -1e9;
+  for (const Segment& segment : child.skeleton.segments) mass_kg += segment.mass_kg;
+  const auto X_WB = segmentPoses(child.skeleton, zeroPosture(child.skeleton));
+  for (const BoneMesh& bone : *child.bones)
+    for (const Eigen::Vector3d& p : bone.mesh.vertices) {
+      const double y_m = (X_WB[std::size_t(bone.segment)] * p).y();
+      low_m = std::min(low_m, y_m), high_m = std::max(high_m, y_m);
+    }
+  EXPECT_NEAR(mass_kg, 22.9, 0.5);           // WHO 2007, median boy of 7.0 years
+  EXPECT_NEAR(high_m - low_m, 1.217, 0.02);  // the same
+}
+
 TEST(WithPhysics, RefusesWrongNames) {
   const auto complaint = [](const PhysicsFactors& factors) -> std::string {
     try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/csv_table.h"
 #include "core/file.h"
@@ -10,6 +11,7 @@
 #include "core/muscle/load_musculature.h"
 #include "core/muscle/muscle_path.h"
 #include "core/rom/fit_preset.h"
+#include "core/rom/range_postures.h"
 #include "core/rom/rom_report.h"
 #include "core/rom/validity.h"
 #include "core/skeleton/clinical_angles.h"
@@ -142,6 +144,25 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Preset, testing::ValuesIn(romPresetNames()),
 
 TEST(AverageAdult, ReadsThePoplitealAngleOfThePaper) {
   EXPECT_NEAR(shipped("average-adult").reading_deg("popliteal_adult"), 30, 2);  // Ryu et al.: 30 deg at 50 N m
+}
+
+/// 0.4 to 1.7 optimal lengths while one coordinate goes through its normal range. Asked: 95 % of the units;
+/// docs/validation.md names those that miss it.
+TEST(AverageAdult, FibersWorkWhileOneCoordinateMoves) {
+  const Shipped& s = shipped("average-adult");
+  const std::size_t half = s.model.musculature.units.size() / 2;
+  std::vector<bool> works(half, true);
+  for (const Posture& q : rangePostures(s.model.skeleton, 10, 0)) {
+    const auto X_WB = segmentPoses(s.model.skeleton, q);
+    for (std::size_t u = 0; u < half; ++u) {
+      const MusculotendonUnit& unit = s.model.musculature.units[u];
+      const double fiber = equilibrium(unit, pathLength(unit, X_WB), 0).normalized_fiber_length;
+      if (fiber < 0.4 || fiber > 1.7) works[u] = false;
+    }
+  }
+  const auto count = std::ranges::count(works, true);
+  std::printf("%td of %zu units stay within 0.4 to 1.7\n", count, half);
+  EXPECT_GE(count, 116);
 }
 
 TEST(AverageAdult, StraightLegRaiseIsLessThanWithABentKnee) {

@@ -186,7 +186,7 @@ void expectDimensions(const std::string& bone, const std::vector<Dimension>& dim
     const std::string aim = contradicted ? std::string{stated} + " *" : stated;
     const double off = d.measured < d.low ? d.measured - d.low : d.measured > d.high ? d.measured - d.high : 0;
     std::printf("| %s | %s | %s | %.1f | %+.1f |\n", bone.c_str(), d.name.c_str(), aim.c_str(), d.measured, off);
-    EXPECT_TRUE(d.measured >= low * (1 - kShare) && d.measured <= high * (1 + kShare))
+    EXPECT_TRUE(d.measured >= low * (1 - kShare) - d.allowance && d.measured <= high * (1 + kShare) + d.allowance)
         << bone << ", " << d.name << ": expected " << low << " to " << high << ", measured " << d.measured;
   }
 }

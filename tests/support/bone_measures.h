@@ -66,6 +66,8 @@ struct Dimension {
   /// Where the stated figures contradict each other: what follows from the others, and is held to instead of low,
   /// high.
   double follows = 0;
+  /// Beyond the 3 %, where these are next to nothing (small angles).
+  double allowance = 0;
 };
 /// Checks that every one lies in its range or within 3 % of it, and prints the table (a star marks
 /// contradicted figures).

@@ -98,6 +98,8 @@ Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
   const Model fitted = deformedModel(reference, c.skeleton->shape);
   c.exam_fit = applyExam(fitted, c.exam, protocol, kMass_kg);
   std::filesystem::create_directories(folder / "results");
+  saveModel(fitted, folder / "results/musculature.json");
+  c.musculature = FileReference{"results/musculature.json", sha256OfFile(folder / "results/musculature.json")};
   saveModel(withLengthFactors(fitted, c.exam_fit->length_factors), folder / "results/model.json");
   c.model = FileReference{"results/model.json", sha256OfFile(folder / "results/model.json")};
   for (const Stage stage : kStages)

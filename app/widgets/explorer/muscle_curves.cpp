@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-std::vector<std::pair<double, double>> sampled(CurveValue (*curve)(double)) {
+template <class Curve>
+std::vector<std::pair<double, double>> sampled(const Curve& curve) {
   constexpr int kSamples = 90;
   constexpr double kFrom = 0.3, kTo = 1.75;
   std::vector<std::pair<double, double>> points;
@@ -108,7 +109,9 @@ void MuscleCurves::refresh() {
 }
 
 void MuscleCurves::showForceLength(int unit) {
-  static const auto active = sampled(activeForceLength), passive = sampled(passiveForceLength);
+  const HillCurves curves{explorer_.model()->musculature.units[std::size_t(unit)].curves};
+  const auto active = sampled([&](double l) { return curves.active(l); });
+  const auto passive = sampled([&](double l) { return curves.passive(l); });
   const double ratio = explorer_.evaluation().normalized_fiber_length[unit];
   force_->setCurves(
       {{tr("active"), active, colour::kPrimary, false}, {tr("passive"), passive, colour::kDanger, true}},
