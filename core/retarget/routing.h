@@ -15,7 +15,7 @@ namespace sinew {
 enum class RetargetMethod {
   Naive,  ///< points move with their bones, lengths scale with the path: what is retargeted from
   Paper,  ///< gradient descent, finite differences, line search: Ryu et al.
-  Sinew   ///< non-linear least squares with analytic derivatives, curve shape first, several starts
+  Sinew   ///< non-linear least squares with analytic derivatives, two starts, rounds over curved bones
 };
 std::string_view nameOf(RetargetMethod method);  ///< "naive", ...
 /// @throws InputError with the known names.

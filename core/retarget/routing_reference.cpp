@@ -78,6 +78,10 @@ PointGuide guideOf(const PathPoint& point, const BoneDistances& bones) {
   if (guide.surface_segment >= 0) {
     guide.surface_B = nearest.nearest.point;
     guide.clearance_m = nearest.nearest.distance_m;
+    const auto found = std::ranges::find_if(bones.bones(), [&](const BoneDistances::Bone& bone) {
+      return bone.segment == guide.surface_segment && bone.name == nearest.bone;
+    });
+    guide.bone = static_cast<int>(found - bones.bones().begin());
   }
   if (guide.attachment) {
     const bool slides = point.anchors.size() == 1 && guide.surface_segment >= 0;

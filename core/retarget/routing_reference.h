@@ -42,8 +42,9 @@ struct PointGuide {
   Eigen::Matrix3d basis_B = Eigen::Matrix3d::Identity();
   bool attachment = false;
   int heaviest_anchor = 0;
-  /// Nearest bone surface, of the segments that a via point hangs on, in the frame of `surface_segment`.
+  /// Nearest bone surface, of the segments that the point hangs on, in the frame of `surface_segment`.
   int surface_segment = -1;
+  int bone = -1;  ///< of BoneDistances::bones()
   Eigen::Vector3d surface_B = Eigen::Vector3d::Zero();
   double clearance_m = 0;  ///< distance from there; negative inside
 };
