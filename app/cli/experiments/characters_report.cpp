@@ -6,7 +6,9 @@
 #include "app/cli/text_table.h"
 #include "app/scene/model_scene.h"
 #include "core/file.h"
+#include "core/foreign/foreign_from_model.h"
 #include "core/io/mjcf.h"
+#include "core/io/osim_writer.h"
 #include "core/skeleton/shape_json.h"
 
 namespace sinew {
@@ -104,20 +106,22 @@ ExperimentReport charactersReport(ExperimentContext& context) {
   for (const Character& c : *characters) {
     sound = sound && validAtRest(c);
     list.push_back(characterJson(c));
-    const auto file = folder / (c.body.name + ".json"), mjcf = folder / (c.body.name + ".xml");
+    const auto file = folder / (c.body.name + ".json"), mjcf = folder / (c.body.name + ".xml"),
+               osim = folder / (c.body.name + ".osim");
     saveModel(c.retargeted.model, file);
     writeFileAtomically(mjcf, mjcfText(c.retargeted.model));
+    writeFileAtomically(osim, osimText(foreignFromModel(c.retargeted.model)));
     // What was written is what a user gets: it has to load.
     files += loadModel(file, context.session().reference()).musculature.units.size() ==
              c.retargeted.model.musculature.units.size();
-    report.models.push_back(file), report.models.push_back(mjcf);
+    report.models.insert(report.models.end(), {file, mjcf, osim});
   }
   report.result = {{"characters", list}};
   report.text = textOf(*characters);
   report.verdicts = {
       {"characters built by one command", "4", "4", std::to_string(characters->size()), characters->size() == 4},
       {"valid standing, weightless, arms sideways", "", "all", sound ? "all" : "not all", sound},
-      {"exported (model JSON that loads back, MuJoCo)", "simulated", "4", std::to_string(files), files == 4}};
+      {"exported: model JSON that loads back, MuJoCo, OpenSim", "simulated", "4", std::to_string(files), files == 4}};
   const std::string picture = drawn(*characters, context.session());
   if (!picture.empty()) report.figures = {{"characters", picture}};
   return report;

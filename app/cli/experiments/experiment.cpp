@@ -30,6 +30,7 @@ const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list = {
       {"rom-preservation", "range of motion of the hip with other femora", romPreservationReport},
       {"pose-dependence", "range of motion of the hip with the knee straight and flexed", poseDependenceReport},
+      {"rom-edit", "the range of motion of a joint edited, muscle lengths solved again", romEditReport},
       {"disorders", "muscles that reverse with limbs of 60-250 %", disordersReport},
       {"characters", "the four characters", charactersReport},
       {"peak-torque", "angles of peak torque of the four characters", peakTorqueReport},

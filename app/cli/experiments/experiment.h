@@ -66,6 +66,7 @@ struct Experiment {
 /// In the order of the paper. One function a file of this folder.
 const std::vector<Experiment>& experiments();
 ExperimentReport romPreservationReport(ExperimentContext& context);
+ExperimentReport romEditReport(ExperimentContext& context);
 ExperimentReport disordersReport(ExperimentContext& context);
 ExperimentReport charactersReport(ExperimentContext& context);
 ExperimentReport peakTorqueReport(ExperimentContext& context);
