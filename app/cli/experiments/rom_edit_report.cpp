@@ -40,6 +40,7 @@ std::vector<Verdict> verdictsOf(const RomEditExperiment& found) {
     const RomEditCells &paper = row.paper.front(), &sinew = row.sinew.front();
     add("of all cells, muscles alone", paper.ofAll(), sinew.ofAll());
     add("of the union, muscles alone", paper.ofUnion(), sinew.ofUnion());
+    add("of all cells, with stops", paper.ofAllInStops(), sinew.ofAllInStops());
     add("of the union, with stops", paper.ofUnionInStops(), sinew.ofUnionInStops());
   }
   return verdicts;
