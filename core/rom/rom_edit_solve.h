@@ -64,7 +64,7 @@ struct RomEditOptions {
   RomEditMethod method = RomEditMethod::Sinew;
   /// What a cell counts by which the muscles alone are wrong, be it beyond the stops where no posture of the body is;
   /// a cell by which muscles and stops together are wrong counts 1. A multiple of 1/64.
-  double weight_of_muscles_alone = 3.0 / 64;
+  double weight_of_muscles_alone = 4.0 / 64;
 };
 
 /// Solves edits of one reference. The pose set and, for each joint when it is first edited, the lengths of its units

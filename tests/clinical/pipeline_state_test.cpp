@@ -15,8 +15,8 @@ using ::testing::SizeIs;
 Case finishedCase() {
   for (unsigned seed = 1;; ++seed) {
     Case c = test::RandomCase{seed}.make();
-    if (!c.rig || !c.landmarks || !c.skeleton || !c.model || !c.exam_fit || !c.report || c.sightings.empty() ||
-        c.images.size() != 2)
+    if (!c.rig || !c.landmarks || !c.skeleton || !c.musculature || !c.model || !c.exam_fit || !c.report ||
+        c.sightings.empty() || c.images.size() != 2)
       continue;
     c.stages.clear();
     for (const Stage stage : kStages) c.stages[stage] = {Outcome::Converged, inputHash(c, stage), 1, {}, ""};

@@ -145,6 +145,7 @@ Case RandomCase::make() {
   if (coin()) c.rig = rig();
   if (coin()) c.landmarks = triangulation();
   if (coin()) c.skeleton = skeletonFit();
+  if (coin()) c.musculature = file("results/musculature/0123456789ab.json");
   if (coin()) c.model = file("results/model.json");
   if (coin()) c.exam_fit = examFit();
   if (coin()) c.report = file("results/report.pdf");
