@@ -63,7 +63,8 @@ std::string tableOf(const RomEditExperiment& found) {
 std::string figureOf(const RomEditExperiment& found) {
   BarPanel panel{"of the cells valid in either, with stops", {}, {{}, {}}};
   for (const RomEditExperimentRow& row : found.rows) {
-    panel.names.push_back(row.edits.front().joint + " " + std::to_string(panel.names.size() + 1));
+    panel.names.push_back(row.edits.front().joint + ", row " + std::to_string(panel.names.size() + 1) +
+                          (row.reference == "reference" ? "" : ", athlete"));
     panel.values[0].push_back(100 * row.paper.front().ofUnionInStops());
     panel.values[1].push_back(100 * row.sinew.front().ofUnionInStops());
   }
