@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/model/physical_scaling.h"
 #include "core/muscle/muscle_role.h"
 #include "core/rom/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
@@ -88,6 +89,7 @@ Retargeted retargeted(const RetargetReference& reference, const ShapeParameters&
                       const RetargetOptions& options, const Job& job, const Retargeted* previous) {
   StopWatch watch;
   Retargeted result{.model = deformedModel(reference.model(), shape)};
+  if (options.physics) result.model = withPhysics(result.model, reference.model(), *options.physics);
   result.times.deformation_s = watch.lap_s();
   result.options = options;
   const Retargeted cancelled{.outcome = Outcome::Cancelled};

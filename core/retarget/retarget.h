@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,9 @@ struct RetargetOptions {
   RetargetMethod method = RetargetMethod::Sinew;
   RoutingWeights weights;
   bool peak_torque = true;  ///< step 3
+  /// Masses and strengths (core/model/physical_scaling.h), which peak torques depend on; nullopt: those of
+  /// deformedModel().
+  std::optional<PhysicsFactors> physics;
 };
 
 struct RetargetTimes {
