@@ -3,15 +3,23 @@
 namespace sinew {
 
 void ViewState::setStage(Stage stage) {
-  if (stage == stage_ && !explorer_) return;
+  if (stage == stage_ && !explorer_ && !retargeting_) return;
   stage_ = stage;
-  explorer_ = false;
+  explorer_ = retargeting_ = false;
   emit stageChanged();
 }
 
 void ViewState::setExplorer(bool shown) {
   if (shown == explorer_) return;
   explorer_ = shown;
+  if (shown) retargeting_ = false;
+  emit stageChanged();
+}
+
+void ViewState::setRetargeting(bool shown) {
+  if (shown == retargeting_) return;
+  retargeting_ = shown;
+  if (shown) explorer_ = false;
   emit stageChanged();
 }
 

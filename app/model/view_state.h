@@ -30,22 +30,26 @@ class ViewState : public QObject {
   /// Whether the model explorer is looked at instead of a stage or the first page.
   bool explorer() const { return explorer_; }
 
+  /// Likewise the retargeting workspace; it and the explorer exclude each other.
+  bool retargeting() const { return retargeting_; }
+
   void setStage(Stage stage);
   void setExplorer(bool shown);
+  void setRetargeting(bool shown);
   void setLandmark(const std::string& name);
   void setMuscle(const std::string& name);
   void setWindow(int slot, const DisplayWindow& window);
   void reset();  ///< for another case
 
  signals:
-  void stageChanged();  ///< or the explorer instead
+  void stageChanged();  ///< or the explorer or the retargeting workspace instead
   void landmarkChanged();
   void muscleChanged();
   void windowChanged(int slot);
 
  private:
   Stage stage_ = Stage::Images;
-  bool explorer_ = false;
+  bool explorer_ = false, retargeting_ = false;
   std::string landmark_, muscle_;
   std::array<DisplayWindow, 4> windows_;
 };

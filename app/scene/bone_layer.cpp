@@ -4,6 +4,8 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+
 #include "app/scene/vtk_convert.h"
 
 namespace sinew {
@@ -29,13 +31,28 @@ vtkSmartPointer<vtkActor> boneActor(const TriangleMesh& mesh) {
 
 }  // namespace
 
-void BoneLayer::setBones(const std::vector<BoneMesh>& bones) {
+void BoneLayer::setBones(std::shared_ptr<const std::vector<BoneMesh>> bones) {
+  // A shape that follows a hand changes a few bones, seldom all: the others keep their surfaces.
+  const bool same_names = shown_ && std::ranges::equal(*shown_, *bones, {}, &BoneMesh::bone, &BoneMesh::bone);
+  if (same_names) {
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      const TriangleMesh &before = (*shown_)[i].mesh, &after = (*bones)[i].mesh;
+      bones_[i].segment = (*bones)[i].segment;
+      if (before.vertices == after.vertices && before.triangles == after.triangles) continue;
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputData(toPolyData(after));
+      bones_[i].actor->SetMapper(mapper);
+    }
+    shown_ = std::move(bones);
+    return;
+  }
   for (const auto& bone : bones_) renderer_.RemoveActor(bone.actor);
   bones_.clear();
-  for (const auto& bone : bones) {
+  for (const auto& bone : *bones) {
     bones_.push_back({bone.bone, bone.segment, boneActor(bone.mesh)});
     renderer_.AddActor(bones_.back().actor);
   }
+  shown_ = std::move(bones);
   setVisible(visible_);
   setOpacity(opacity_);
   select(selected_);

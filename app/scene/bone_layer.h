@@ -2,6 +2,7 @@
 #include <vtkActor.h>
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ class BoneLayer {
  public:
   explicit BoneLayer(vtkRenderer& renderer) : renderer_{renderer} {}
 
-  void setBones(const std::vector<BoneMesh>& bones);
+  void setBones(std::shared_ptr<const std::vector<BoneMesh>> bones);
   void setPoses(const std::vector<RigidTransform>& X_WB);
   void setVisible(bool visible);
   void setOpacity(double opacity);
@@ -34,6 +35,7 @@ class BoneLayer {
   };
   vtkRenderer& renderer_;
   std::vector<Bone> bones_;
+  std::shared_ptr<const std::vector<BoneMesh>> shown_;
   bool visible_ = true;
   double opacity_ = 1;
   Rgb colour_ = palette::kBone;

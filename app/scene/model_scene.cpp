@@ -37,7 +37,8 @@ Eigen::Vector3d viewpoint(StandardView view) {
   return Eigen::Vector3d::UnitX();
 }
 
-/// Right, up, and towards the viewer.
+}  // namespace
+
 Eigen::Matrix3d viewAxes(StandardView view) {
   Eigen::Matrix3d axes;
   axes.col(2) = viewpoint(view);
@@ -45,6 +46,8 @@ Eigen::Matrix3d viewAxes(StandardView view) {
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }
+
+namespace {
 
 void lightLikeAStudio(vtkRenderer& renderer) {
   vtkNew<vtkLightKit> lights;  // they stand with the camera: every view is lit alike
@@ -57,10 +60,6 @@ void lightLikeAStudio(vtkRenderer& renderer) {
   lights->SetKeyToBackRatio(3.5);
   lights->AddLightsToRenderer(&renderer);
 }
-
-}  // namespace
-
-namespace {
 
 /// Most of the length of the bone, so that the patch shows where its end can go; to the next joint, or a hand's
 /// length.
@@ -134,7 +133,7 @@ ModelScene::~ModelScene() = default;
 void ModelScene::setModel(std::shared_ptr<const Model> model) {
   require(model != nullptr, "setModel: no model");
   parts_->model = std::move(model);
-  parts_->bones.setBones(*parts_->model->bones);
+  parts_->bones.setBones(parts_->model->bones);
   parts_->X_WB.clear();
   setRom(std::nullopt);
   setShownMuscles(std::nullopt);
@@ -267,6 +266,28 @@ void ModelScene::lookFrom(StandardView view) {
   const int* size = r.GetVTKWindow() ? r.GetVTKWindow()->GetSize() : nullptr;
   const double aspect = size && size[0] > 0 && size[1] > 0 ? double(size[0]) / size[1] : 1.0;
   lookAt(view, (lo + hi) / 2, kMargin * std::max(half_height, half_width / aspect));
+}
+
+void ModelScene::fitAll() {
+  vtkRenderer& r = parts_->renderer;
+  double bounds[6];
+  r.ComputeVisiblePropBounds(bounds);
+  if (!vtkMath::AreBoundsInitialized(bounds)) return;
+  vtkCamera* camera = r.GetActiveCamera();
+  const Eigen::Vector3d towards = -Eigen::Map<const Eigen::Vector3d>{camera->GetDirectionOfProjection()};
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>{camera->GetViewUp()}.normalized();
+  const Eigen::Vector3d right = up.cross(towards).normalized(), above = towards.cross(right);
+  const Eigen::Vector3d lo{bounds[0], bounds[2], bounds[4]}, hi{bounds[1], bounds[3], bounds[5]};
+  const Eigen::Vector3d half = (hi - lo) / 2, middle = (lo + hi) / 2;
+  constexpr double kMargin = 1.03;
+  const int* size = r.GetVTKWindow() ? r.GetVTKWindow()->GetSize() : nullptr;
+  const double aspect = size && size[0] > 0 && size[1] > 0 ? double(size[0]) / size[1] : 1.0;
+  const double half_height_m = kMargin * std::max(half.dot(above.cwiseAbs()), half.dot(right.cwiseAbs()) / aspect);
+  const Eigen::Vector3d eye = middle + 4 * towards;
+  camera->SetFocalPoint(middle.data());
+  camera->SetPosition(eye.data());
+  camera->SetParallelScale(half_height_m);
+  r.ResetCameraClippingRange();
 }
 
 void ModelScene::lookAt(StandardView view, const Eigen::Vector3d& p_W, double half_height_m) {

@@ -18,6 +18,9 @@ enum class SceneLayer { Bones, Muscles, MechanicalAxes, Landmarks, RomSphere };
 enum class StandardView { Front, Back, Right, Left, Oblique };
 enum class Backdrop { White, Dark };
 
+/// Axes of the picture in the world: right, up, and towards the viewer.
+Eigen::Matrix3d viewAxes(StandardView view);
+
 /// One number per muscle, shown as colour: activation, length change, passive force, ...
 struct MuscleScalars {
   std::map<std::string, double> by_unit;  ///< units without a value are grey
@@ -71,6 +74,8 @@ class ModelScene {
 
   /// Parallel projection (lengths compare across the picture) that shows all visible layers, with a small margin.
   void lookFrom(StandardView view);
+  /// Keeps the direction that is looked from, and moves and zooms until all visible layers are in sight.
+  void fitAll();
   /// The same from near by: `half_height_m` above and below of `p_W`.
   void lookAt(StandardView view, const Eigen::Vector3d& p_W, double half_height_m);
 

@@ -19,8 +19,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
+#include "app/scene/rom_handle_layer.h"
 #include "app/scene/rom_layer.h"
 #include "app/scene/rom_patch.h"
 
@@ -69,11 +71,13 @@ void addColourBar(vtkRenderer& renderer, double widest_rad, bool dark, int font_
 }  // namespace
 
 struct RomSphereScene::Parts {
-  explicit Parts(vtkRenderer& r) : renderer{r}, layer{r} {}
+  explicit Parts(vtkRenderer& r) : renderer{r}, layer{r}, handle_layer{r} {}
   vtkRenderer& renderer;
   RomLayer layer;
   vtkNew<vtkActor> globe;
   std::array<vtkNew<vtkBillboardTextActor3D>, std::size(kDirections)> words;
+  RomHandleLayer handle_layer;
+  std::optional<RomHandles> handles;
   Eigen::Vector3d shaft_J = -Eigen::Vector3d::UnitY();
   int side = 1;
   unsigned long observer = 0;
@@ -135,6 +139,55 @@ void RomSphereScene::setShaft(const Eigen::Vector3d& shaft_J) {
   parts_->layer.setPose(RigidTransform::Identity(), shaft_J);
 }
 
+void RomSphereScene::setOutline(const std::optional<RomMap>& map) {
+  parts_->handle_layer.setOutline(map, kRadius);
+}
+
+void RomSphereScene::setHandles(const std::optional<RomHandles>& handles) {
+  parts_->handles = handles;
+  if (handles)
+    parts_->handle_layer.draw(handles->centre_J, handles->cone_rad, borderHandle_J(), kRadius);
+  else
+    parts_->handle_layer.hide();
+}
+
+Eigen::Vector3d RomSphereScene::borderHandle_J() const {
+  if (!parts_->handles) return parts_->shaft_J;
+  const auto& [centre_J, cone_rad] = *parts_->handles;
+  // Of all points of the border the one that lies most to the viewer's left and below: away from the words.
+  vtkCamera* camera = parts_->renderer.GetActiveCamera();
+  const Eigen::Vector3d towards = -Eigen::Map<const Eigen::Vector3d>{camera->GetDirectionOfProjection()};
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>{camera->GetViewUp()};
+  const Eigen::Vector3d wish = 0.8 * towards - 0.6 * up.cross(towards) - 0.45 * up;
+  Eigen::Vector3d across = wish - wish.dot(centre_J) * centre_J;
+  if (across.norm() < 1e-6) across = centre_J.unitOrthogonal();
+  return std::cos(cone_rad) * centre_J + std::sin(cone_rad) * across.normalized();
+}
+
+Eigen::Vector3d RomSphereScene::directionAt(double x_px, double y_px) const {
+  vtkRenderer& r = parts_->renderer;
+  r.SetDisplayPoint(x_px, y_px, 0);
+  r.DisplayToWorld();
+  double p[4];
+  r.GetWorldPoint(p);
+  const Eigen::Vector3d near_J = Eigen::Vector3d{p[0], p[1], p[2]} / p[3];
+  const Eigen::Vector3d along = Eigen::Map<const Eigen::Vector3d>{r.GetActiveCamera()->GetDirectionOfProjection()};
+  const Eigen::Vector3d across = near_J - near_J.dot(along) * along;  // parallel projection
+  const double rest = kRadius * kRadius - across.squaredNorm();
+  if (rest <= 0) return across.normalized();
+  return (across - std::sqrt(rest) * along).normalized();
+}
+
+Eigen::Vector2d RomSphereScene::pixelOf(const Eigen::Vector3d& direction_J) const {
+  vtkRenderer& r = parts_->renderer;
+  const Eigen::Vector3d p = kRadius * direction_J;
+  r.SetWorldPoint(p.x(), p.y(), p.z(), 1);
+  r.WorldToDisplay();
+  double d[3];
+  r.GetDisplayPoint(d);
+  return {d[0], d[1]};
+}
+
 void RomSphereScene::setBackdrop(Backdrop backdrop) {
   const bool dark = backdrop == Backdrop::Dark;
   vtkRenderer& r = parts_->renderer;
@@ -167,7 +220,7 @@ void RomSphereScene::lookFromTheFront() {
   camera->SetFocalPoint(0, 0, 0);
   camera->SetPosition(out.data());
   camera->SetViewUp(0, 1, 0);
-  camera->SetParallelScale(1.40 * kRadius);
+  camera->SetParallelScale(1.48 * kRadius);  // the words need room
   parts_->hideWordsBehind();
   r.ResetCameraClippingRange();
 }
@@ -189,6 +242,8 @@ RgbImage renderRomSphere(const RomMap& map, const RomPicture& picture) {
     scene.setMap(map, widest_rad);
     if (picture.shaft_J) scene.setShaft(*picture.shaft_J);
     scene.lookFromTheFront();
+    scene.setOutline(picture.outline);
+    scene.setHandles(picture.handles);
     const int font_px = std::max(10, picture.width_px * picture.quality.supersampling / 30);
     scene.setFontSize(font_px);
     if (picture.colour_bar) {

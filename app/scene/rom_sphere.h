@@ -10,6 +10,12 @@ class vtkRenderer;
 
 namespace sinew {
 
+/// The cone of directions that an edit asks for.
+struct RomHandles {
+  Eigen::Vector3d centre_J = -Eigen::Vector3d::UnitY();  ///< unit
+  double cone_rad = 0;
+};
+
 /// A ball joint's map on a sphere of its own: the directions that the shaft can take, coloured by the width of the
 /// twist range there, with the directions of the body as words. The renderer belongs to the caller and outlives the
 /// scene.
@@ -26,6 +32,19 @@ class RomSphereScene {
   void setShaft(const Eigen::Vector3d& shaft_J);
   void setBackdrop(Backdrop backdrop);
   void setFontSize(int size_px);
+  /// The border of another map beside the coloured one: what it is compared with. nullopt: none.
+  void setOutline(const std::optional<RomMap>& map);
+  /// A cone to take hold of: its middle, its border, and a ball on each (the border's where a hand finds it, seen
+  /// from here). nullopt: none.
+  void setHandles(const std::optional<RomHandles>& handles);
+  /// Where the handle on the border is [joint frame], for the present camera; the middle without handles.
+  Eigen::Vector3d borderHandle_J() const;
+  /// The direction that a point of the render window stands for [px, origin at the bottom left]: on the side of the
+  /// sphere that is seen; beside the sphere its nearest edge.
+  Eigen::Vector3d directionAt(double x_px, double y_px) const;
+  /// The other way, for a direction on the side that is seen.
+  Eigen::Vector2d pixelOf(const Eigen::Vector3d& direction_J) const;
+
   /// From the front and a little from above, from the side of the joint.
   void lookFromTheFront();
 
@@ -44,6 +63,8 @@ struct RomPicture {
   double widest_rad = 0;  ///< 0: the map's own widest range
   bool colour_bar = true;
   std::optional<Eigen::Vector3d> shaft_J;
+  std::optional<RomMap> outline;  ///< its border is drawn too
+  std::optional<RomHandles> handles;
   OffscreenOptions quality{2, false};
 };
 

@@ -5,9 +5,12 @@
 #include <filesystem>
 #include <numbers>
 
+#include "app/scene/lineup.h"
 #include "app/scene/model_scene.h"
 #include "app/scene/rom_sphere.h"
+#include "core/model/physical_scaling.h"
 #include "core/muscle/evaluate.h"
+#include "core/retarget/retarget.h"
 #include "core/rom/rom_map.h"
 #include "core/skeleton/clinical_angles.h"
 
@@ -139,6 +142,24 @@ void drawColours(const Model& model, const std::filesystem::path& out) {
   save(renderModel(model, raised, picture), out / "raised-passive-force.png");
 }
 
+/// The reference, hulk, dwarf and alien side by side, their muscles retargeted.
+void drawCharacters(const std::filesystem::path& resource_dir, const std::filesystem::path& out) {
+  const auto reference = loadRetargetReference(resource_dir);
+  std::vector<LineupBody> bodies;
+  for (const char* name : {"human", "hulk", "dwarf", "alien"}) {
+    const BodyDescription body = loadShapePreset(resource_dir, name);
+    const Retargeted made = retarget(*reference, body.shape);
+    const auto model = std::make_shared<const Model>(withPhysics(made.model, reference->model(), body.physics));
+    bodies.push_back({model, standingOnGround(*model)});
+    std::printf("%s: retargeted in %.2f s\n", name, made.times.total_s());
+  }
+  LineupPicture picture;
+  picture.height_px = 560;
+  save(renderLineup(bodies, picture).image, out / "characters-front.png");
+  picture.view = StandardView::Oblique;
+  save(renderLineup(bodies, picture).image, out / "characters-oblique.png");
+}
+
 }  // namespace
 }  // namespace sinew
 
@@ -155,6 +176,7 @@ int main(int argc, char** argv) {
     sinew::drawColours(model, out);
     sinew::drawRom(model, "hip_r", "knee_flexion_r", {0, 90}, out);
     sinew::drawRom(model, "shoulder_r", "elbow_flexion_r", {0, 120}, out);
+    sinew::drawCharacters(argv[1], out);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sinew-gallery: %s\n", error.what());

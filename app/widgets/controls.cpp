@@ -11,6 +11,7 @@
 #include <QStyle>
 #include <QToolTip>
 #include <QVBoxLayout>
+#include <QWheelEvent>
 
 #include "app/widgets/theme.h"
 
@@ -56,6 +57,13 @@ void ElidedLabel::paintEvent(QPaintEvent*) {
   QPainter painter{this};
   style()->drawItemText(&painter, contentsRect(), int(alignment()), palette(), isEnabled(), shownText(),
                         foregroundRole());
+}
+
+void PatientSpinBox::wheelEvent(QWheelEvent* event) {
+  if (hasFocus())
+    QDoubleSpinBox::wheelEvent(event);
+  else
+    event->ignore();
 }
 
 QLineEdit* makeSearchField(const QString& object_name, const QString& hint) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <QDoubleSpinBox>
 #include <QFrame>
 #include <QLabel>
 #include <QString>
@@ -37,6 +38,16 @@ class ElidedLabel : public QLabel {
 
  private:
   QString shownText() const;
+};
+
+/// A number in a list that scrolls: wheel events go to the list unless the field is being edited.
+class PatientSpinBox : public QDoubleSpinBox {
+  Q_OBJECT
+ public:
+  using QDoubleSpinBox::QDoubleSpinBox;
+
+ protected:
+  void wheelEvent(QWheelEvent* event) override;
 };
 
 /// A field to search a list with.

@@ -19,6 +19,10 @@ double roundStep(double span, int most) {
   return 10 * power;
 }
 
+namespace {
+constexpr double kRoom = 0.04;  // of the height, above and below the curves
+}
+
 CurvePlot::CurvePlot(QWidget* parent) : QWidget{parent} {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
@@ -66,6 +70,10 @@ CurvePlot::Range CurvePlot::rangeY() const {
   for (const auto& mark : marks_)
     if (mark.horizontal)  // with room for its name above
       range.high = std::max(range.high, from_zero_ ? mark.value * 1.15 : mark.value + 0.3 * (mark.value - range.low));
+  if (const double room = kRoom * (range.high - range.low); room > 0 && std::isfinite(room)) {  // no line on the edge
+    if (range.low != 0) range.low -= room;
+    if (range.high != 0) range.high += room;
+  }
   if (highest_ > 0) range = {std::max(range.low, -highest_ / 4), std::min(range.high, highest_)};
   if (!(range.low < range.high)) range = {0, 1};
   return range;
@@ -93,8 +101,8 @@ void CurvePlot::paintEvent(QPaintEvent*) {
     painter.fillRect(QRectF{std::min(from, to), area.top(), std::abs(to - from), area.height()},
                      colour::kSuccessTint);
   }
-  const double step_x = roundStep(x.high - x.low, std::max(2, int(area.width() / 60)));
-  const double step_y = roundStep(y.high - y.low, std::max(2, int(area.height() / 36)));
+  const double step_x = roundStep(x.high - x.low, std::max(2, int(area.width() / 48)));
+  const double step_y = roundStep(y.high - y.low, std::max(2, int(area.height() / 22)));
   for (double t = std::ceil(x.low / step_x) * step_x; t <= x.high + 1e-9; t += step_x) {
     painter.setPen(QPen{colour::kLine, 1});
     painter.drawLine(QPointF{toX(t), area.top()}, QPointF{toX(t), area.bottom()});

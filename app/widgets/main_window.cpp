@@ -19,6 +19,7 @@
 #include "app/widgets/landmarks_page.h"
 #include "app/widgets/musculature_page.h"
 #include "app/widgets/new_case_dialog.h"
+#include "app/widgets/retarget/retarget_page.h"
 #include "app/widgets/skeleton_page.h"
 #include "app/widgets/stage_rail.h"
 #include "app/widgets/status_strip.h"
@@ -52,6 +53,8 @@ MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_re
 
   explorer_ = new ExplorerPage{workspace_};
   pages_->addWidget(explorer_);
+  retarget_ = new RetargetPage{workspace_};
+  pages_->addWidget(retarget_);
 
   banner_ = new Banner;
   auto* banner_line = new QHBoxLayout;
@@ -85,7 +88,10 @@ MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_re
   connect(welcome, &WelcomePage::newWanted, this, &MainWindow::newCase);
   connect(welcome, &WelcomePage::demoWanted, this, &MainWindow::openDemo);
   connect(welcome, &WelcomePage::explorerWanted, this, [this] { workspace_.view().setExplorer(true); });
+  connect(welcome, &WelcomePage::retargetingWanted, this, [this] { workspace_.view().setRetargeting(true); });
   connect(explorer_, &ExplorerPage::closeWanted, this, [this] { workspace_.view().setExplorer(false); });
+  connect(retarget_, &RetargetPage::closeWanted, this, [this] { workspace_.view().setRetargeting(false); });
+  connect(retarget_, &RetargetPage::undoChanged, this, &MainWindow::refreshActions);
   refreshActions();
   showStage();
 }
@@ -108,8 +114,19 @@ HeaderBar::Actions MainWindow::makeActions() {
   connect(actions.new_case, &QAction::triggered, this, &MainWindow::newCase);
   connect(actions.open, &QAction::triggered, this, &MainWindow::openCase);
   connect(actions.save, &QAction::triggered, &workspace_, &Workspace::saveCase);
-  connect(actions.undo, &QAction::triggered, &workspace_.document(), &CaseDocument::undo);
-  connect(actions.redo, &QAction::triggered, &workspace_.document(), &CaseDocument::redo);
+  // Undo belongs to what is looked at: the case, or the body that is being designed.
+  connect(actions.undo, &QAction::triggered, this, [this] {
+    if (workspace_.view().retargeting())
+      retarget_->document().undo();
+    else
+      workspace_.document().undo();
+  });
+  connect(actions.redo, &QAction::triggered, this, [this] {
+    if (workspace_.view().retargeting())
+      retarget_->document().redo();
+    else
+      workspace_.document().redo();
+  });
   const auto shortcut = [this](const char* keys, auto call) {
     connect(new QShortcut{QKeySequence{keys}, this}, &QShortcut::activated, this, call);
   };
@@ -119,7 +136,11 @@ HeaderBar::Actions MainWindow::makeActions() {
   });
   shortcut("Ctrl+Shift+R", [this] { findChild<QPushButton*>("run_all")->click(); });
   shortcut("Ctrl+M", [this] { workspace_.view().setExplorer(true); });
-  shortcut("Esc", [this] { workspace_.jobs().cancel(); });
+  shortcut("Ctrl+T", [this] { workspace_.view().setRetargeting(true); });
+  shortcut("Esc", [this] {
+    workspace_.jobs().cancel();
+    if (workspace_.view().retargeting()) retarget_->solver().cancel();
+  });
   for (int i = 0; i < int(kStages.size()); ++i)
     shortcut(QString{"Alt+%1"}.arg(i + 1).toLatin1().constData(), [this, i] {
       if (workspace_.document().isOpen()) workspace_.view().setStage(kStages[std::size_t(i)]);
@@ -130,12 +151,18 @@ HeaderBar::Actions MainWindow::makeActions() {
 void MainWindow::refreshActions() {
   const CaseDocument& document = workspace_.document();
   actions_.save->setEnabled(document.isModified());
-  actions_.undo->setEnabled(document.canUndo());
-  actions_.redo->setEnabled(document.canRedo());
-  actions_.undo->setToolTip(document.canUndo() ? tr("Undo: %1 (Ctrl+Z)").arg(document.undoLabel())
-                                               : tr("Nothing to undo"));
-  actions_.redo->setToolTip(document.canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(document.redoLabel())
-                                               : tr("Nothing to redo"));
+  const auto offer = [&](const auto& history) {
+    actions_.undo->setEnabled(history.canUndo());
+    actions_.redo->setEnabled(history.canRedo());
+    actions_.undo->setToolTip(history.canUndo() ? tr("Undo: %1 (Ctrl+Z)").arg(history.undoLabel())
+                                                : tr("Nothing to undo"));
+    actions_.redo->setToolTip(history.canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(history.redoLabel())
+                                                : tr("Nothing to redo"));
+  };
+  if (workspace_.view().retargeting())
+    offer(retarget_->document());
+  else
+    offer(document);
   setWindowModified(document.isModified());
 }
 
@@ -143,7 +170,9 @@ void MainWindow::showStage() {
   QWidget* page = welcome_;
   if (workspace_.document().isOpen()) page = stage_pages_.at(workspace_.view().stage());
   if (workspace_.view().explorer()) page = explorer_;
+  if (workspace_.view().retargeting()) page = retarget_;
   pages_->setCurrentWidget(page);
+  refreshActions();
 }
 
 bool MainWindow::mayLeaveCase() {

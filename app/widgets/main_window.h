@@ -11,6 +11,7 @@ namespace sinew {
 
 class Banner;
 class ExplorerPage;
+class RetargetPage;
 class StagePage;
 class Workspace;
 
@@ -40,6 +41,7 @@ class MainWindow : public QWidget {
   QStackedWidget* pages_;
   QWidget* welcome_;
   ExplorerPage* explorer_;
+  RetargetPage* retarget_;
   std::map<Stage, StagePage*> stage_pages_;
 };
 

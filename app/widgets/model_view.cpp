@@ -149,6 +149,11 @@ void ModelView::show(const Posture& posture, const std::string& selected,
   redraw();
 }
 
+void ModelView::fit() {
+  if (scene_ && model_) scene_->fitAll();
+  redraw();
+}
+
 void ModelView::withoutAxes() {
   axes_button_->setChecked(false);
   axes_button_->hide();

@@ -35,6 +35,8 @@ class ModelView : public QWidget {
   /// Posture, highlighted unit and colours (nullopt: by group) of the model that is shown, at once: quick enough to
   /// follow a slider.
   void show(const Posture& posture, const std::string& selected, const std::optional<MuscleScalars>& scalars);
+  /// Everything in sight, seen from the same side.
+  void fit();
   /// Hides the mechanical axes and their button, for narrow places where they say nothing.
   void withoutAxes();
   VtkView* vtkView() { return vtk_; }

@@ -46,9 +46,15 @@ StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, w
     column->addWidget(entries_.at(stage).button);
   }
   column->addStretch();
-  explorer_ = makeExplorerEntry();
+  explorer_ = makePlace("open_explorer", "explorer", tr("Model explorer"),
+                        tr("Bones, muscles, joints and their ranges; with or without a case (Ctrl+M)"),
+                        [this] { workspace_.view().setExplorer(true); });
+  retargeting_ = makePlace("open_retargeting", "retarget", tr("Retargeting"),
+                           tr("Shape a body, its muscles keep their function; needs no case (Ctrl+T)"),
+                           [this] { workspace_.view().setRetargeting(true); });
   column->addWidget(explorer_);
-  column->addSpacing(6);
+  column->addWidget(retargeting_);
+  column->addSpacing(12);
   run_all_ = new QPushButton{icon("play-all", Qt::white), tr("Run all")};
   run_all_->setObjectName("run_all");
   run_all_->setProperty("role", "primary");
@@ -64,26 +70,27 @@ StageRail::StageRail(Workspace& workspace, QWidget* parent) : QWidget{parent}, w
   refreshSelection();
 }
 
-QPushButton* StageRail::makeExplorerEntry() {
+QPushButton* StageRail::makePlace(const QString& object_name, const QString& icon_name, const QString& title,
+                                  const QString& tip, const std::function<void()>& open) {
   auto* button = new QPushButton;
-  button->setObjectName("open_explorer");
+  button->setObjectName(object_name);
   button->setProperty("role", "stage");
   button->setCheckable(true);
   button->setFixedHeight(40);
   button->setCursor(Qt::PointingHandCursor);
-  button->setAccessibleName(tr("Model explorer"));
-  button->setToolTip(tr("Bones, muscles, joints and their ranges; with or without a case (Ctrl+M)"));
+  button->setAccessibleName(title);
+  button->setToolTip(tip);
   auto* picture = new QLabel;
-  picture->setPixmap(icon("explorer", QColor{0xc9, 0xd6, 0xe0}).pixmap(22, 22));
-  auto* title = makeLabel(tr("Model explorer"), "heading");
+  picture->setPixmap(icon(icon_name, QColor{0xc9, 0xd6, 0xe0}).pixmap(22, 22));
+  auto* words = makeLabel(title, "heading");
   auto* row = new QHBoxLayout{button};
   row->setContentsMargins(12, 0, 10, 0);
   row->setSpacing(9);
   row->addWidget(picture);
-  row->addWidget(title, 1);
-  for (QLabel* child : {picture, title}) child->setAttribute(Qt::WA_TransparentForMouseEvents);
-  connect(button, &QPushButton::clicked, this, [this] {
-    workspace_.view().setExplorer(true);
+  row->addWidget(words, 1);
+  for (QLabel* child : {picture, words}) child->setAttribute(Qt::WA_TransparentForMouseEvents);
+  connect(button, &QPushButton::clicked, this, [this, open] {
+    open();
     refreshSelection();  // a second click must not uncheck it
   });
   return button;
@@ -157,8 +164,9 @@ void StageRail::refresh() {
 void StageRail::refreshSelection() {
   for (auto& [stage, entry] : entries_)
     entry.button->setChecked(workspace_.document().isOpen() && !workspace_.view().explorer() &&
-                             stage == workspace_.view().stage());
+                             !workspace_.view().retargeting() && stage == workspace_.view().stage());
   explorer_->setChecked(workspace_.view().explorer());
+  retargeting_->setChecked(workspace_.view().retargeting());
 }
 
 }  // namespace sinew

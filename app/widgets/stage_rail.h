@@ -1,5 +1,6 @@
 #pragma once
 #include <QWidget>
+#include <functional>
 #include <map>
 
 #include "clinical/case.h"
@@ -23,13 +24,15 @@ class StageRail : public QWidget {
     QLabel *sign, *title, *line;
   };
   Entry makeEntry(Stage stage);
-  QPushButton* makeExplorerEntry();
+  /// A place that needs no case: the explorer, the retargeting workspace.
+  QPushButton* makePlace(const QString& object_name, const QString& icon_name, const QString& title,
+                         const QString& tip, const std::function<void()>& open);
   void refresh();
   void refreshSelection();
 
   Workspace& workspace_;
   std::map<Stage, Entry> entries_;
-  QPushButton *explorer_, *run_all_;
+  QPushButton *explorer_, *retargeting_, *run_all_;
 };
 
 }  // namespace sinew

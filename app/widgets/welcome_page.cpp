@@ -28,7 +28,7 @@ WelcomePage::WelcomePage(Workspace& workspace, QWidget* parent) : QWidget{parent
   column->addWidget(text);
   column->addSpacing(32);
   auto* row = new QHBoxLayout;
-  row->setSpacing(16);
+  row->setSpacing(12);
   auto* open = makeChoice("welcome_open", "folder-open", tr("Open a case"), tr("Continue with a case folder."));
   auto* fresh = makeChoice("welcome_new", "new-case", tr("New from images"),
                            tr("Begin with a frontal and a lateral radiograph."));
@@ -36,8 +36,11 @@ WelcomePage::WelcomePage(Workspace& workspace, QWidget* parent) : QWidget{parent
                           tr("A synthetic patient with known truth, made in a folder of your choice."));
   auto* explore = makeChoice("welcome_explorer", "explorer", tr("Explore the model"),
                              tr("The reference model: bones, muscles, joints and their ranges. Needs no case."));
+  auto* retarget =
+      makeChoice("welcome_retarget", "retarget", tr("Shape a body"),
+                 tr("Change bones and ranges of motion; the muscles keep their function. Needs no case."));
   row->addStretch();
-  for (auto* choice : {open, fresh, demo, explore}) row->addWidget(choice);
+  for (auto* choice : {open, fresh, demo, explore, retarget}) row->addWidget(choice);
   row->addStretch();
   column->addLayout(row);
   column->addStretch(4);
@@ -45,6 +48,7 @@ WelcomePage::WelcomePage(Workspace& workspace, QWidget* parent) : QWidget{parent
   connect(fresh, &QPushButton::clicked, this, &WelcomePage::newWanted);
   connect(demo, &QPushButton::clicked, this, &WelcomePage::demoWanted);
   connect(explore, &QPushButton::clicked, this, &WelcomePage::explorerWanted);
+  connect(retarget, &QPushButton::clicked, this, &WelcomePage::retargetingWanted);
   const auto enable = [this, &workspace] { setEnabled(!workspace.jobs().isBusy()); };
   connect(&workspace.jobs(), &JobRunner::started, this, enable);
   connect(&workspace.jobs(), &JobRunner::released, this, enable);
@@ -55,11 +59,11 @@ QPushButton* WelcomePage::makeChoice(const QString& object_name, const QString& 
   auto* button = new QPushButton;
   button->setObjectName(object_name);
   button->setAccessibleName(title);
-  button->setFixedSize(232, 168);
+  button->setFixedSize(184, 184);
   button->setCursor(Qt::PointingHandCursor);
   button->setStyleSheet("border-radius: 10px;");
   auto* column = new QVBoxLayout{button};
-  column->setContentsMargins(20, 20, 20, 16);
+  column->setContentsMargins(16, 18, 16, 12);
   column->setSpacing(8);
   auto* picture = new QLabel;
   picture->setPixmap(icon(icon_name, colour::kPrimary).pixmap(34, 34));
@@ -69,7 +73,7 @@ QPushButton* WelcomePage::makeChoice(const QString& object_name, const QString& 
   column->addStretch();
   column->addWidget(makeLabel(title, "heading"));
   column->addWidget(words);
-  words->setMinimumHeight(46);
+  words->setMinimumHeight(62);
   words->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   for (auto* label : button->findChildren<QLabel*>()) label->setAttribute(Qt::WA_TransparentForMouseEvents);
   return button;

@@ -18,6 +18,7 @@ class WelcomePage : public QWidget {
   void newWanted();
   void demoWanted();
   void explorerWanted();
+  void retargetingWanted();
 
  private:
   QPushButton* makeChoice(const QString& object_name, const QString& icon_name, const QString& title,

@@ -27,20 +27,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Wheel events go to the list unless the field is being edited.
-class PatientSpinBox : public QDoubleSpinBox {
- public:
-  using QDoubleSpinBox::QDoubleSpinBox;
-
- protected:
-  void wheelEvent(QWheelEvent* event) override {
-    if (hasFocus())
-      QDoubleSpinBox::wheelEvent(event);
-    else
-      event->ignore();
-  }
-};
-
 /// "knee flexion" of the knee -> "Flexion": the joint stands above.
 QString shortWords(const QString& words, const QString& joint_words) {
   QString text = words;
@@ -177,8 +163,7 @@ QWidget* JointPanel::makeRow(int coordinate) {
   auto* slider = new RangeSlider;
   slider->setObjectName("slider_" + name);
   slider->setAccessibleName(readableName(c.name));
-  slider->setRange(int(std::lround(10 * c.stop_min_rad * scale)),
-                   int(std::lround(10 * c.stop_max_rad * scale)));
+  slider->setRange(int(std::lround(10 * c.stop_min_rad * scale)), int(std::lround(10 * c.stop_max_rad * scale)));
   slider->setBand(int(std::lround(10 * c.normal_min_rad * scale)), int(std::lround(10 * c.normal_max_rad * scale)));
   if (c.translational) {
     slider->setBand(0, 0);

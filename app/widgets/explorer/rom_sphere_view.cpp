@@ -62,6 +62,18 @@ void RomSphereView::setShaft(const Eigen::Vector3d& shaft_J) {
   redraw();
 }
 
+void RomSphereView::setOutline(const std::optional<RomMap>& map) {
+  outline_ = map;
+  if (scene_) scene_->setOutline(map);
+  redraw();
+}
+
+void RomSphereView::setHandles(const std::optional<RomHandles>& handles) {
+  handles_ = handles;
+  if (scene_) scene_->setHandles(handles);
+  redraw();
+}
+
 void RomSphereView::turnWith(RomSphereView& other) {
   if (vtk_ && other.vtk_) vtk_->shareCameraWith(*other.vtk_);
 }
@@ -77,6 +89,8 @@ void RomSphereView::redraw() {
     wanted.widest_rad = widest_rad_;
     wanted.colour_bar = false;
     wanted.shaft_J = shaft_J_;
+    wanted.outline = outline_;
+    wanted.handles = handles_;
     wanted.quality = {1, false};
     const RgbImage image = renderRomSphere(*map_, wanted);
     still_->setPixmap(QPixmap::fromImage(
