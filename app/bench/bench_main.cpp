@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include "app/bench/bench_rows.h"
+#include "app/bench/retarget_rows.h"
 #include "core/file.h"
 #include "core/strict_json.h"
 #include "core/version.h"
@@ -53,26 +55,28 @@ Json timingJson(const Timing& t, double items) {
 
 class Table {
  public:
-  Table(const BenchRows& bench, const std::map<std::string, Timing>& timings) : bench_{bench}, timings_{timings} {}
+  Table(const std::vector<BenchRow>& rows, Isa isa, const std::map<std::string, Timing>& timings)
+      : rows_{rows}, isa_{isa}, timings_{timings} {}
 
   Json json() const {
     Json rows = Json::array();
-    for (const BenchRow& row : bench_.rows())
+    for (const BenchRow& row : rows_)
       if (const auto* ours = timing("ours", row)) rows.push_back(rowJson(row, *ours, timing("peer", row)));
     return {{"format", "sinew.bench"},
             {"version", 1},
             {"program", std::string{"sinew "} + kVersion},
-            {"isa", isaName(bench_.isa())},
+            {"isa", isaName(isa_)},
             {"rows", rows}};
   }
 
   std::string text() const {
     std::string text =
-        "Instruction set: " + std::string{isaName(bench_.isa())} +
-        ". One thread. Times are CPU median / CPU smallest / wall median of an item; ratio of the smallest.\n\n"
+        "Instruction set: " + std::string{isaName(isa_)} +
+        ". One thread; rows 7, 8, 14 all processors, CPU of all threads. Times are CPU median / CPU smallest / wall "
+        "median of an item; ratio of the smallest.\n\n"
         "| row | task | lanes | ours | peer | peer's time | ratio | target |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const BenchRow& row : bench_.rows()) {
+    for (const BenchRow& row : rows_) {
       const auto *ours = timing("ours", row), *peer = timing("peer", row);
       if (ours == nullptr) continue;
       text += "| " + row.id + " | " + row.task + " (a " + row.item + ") | " + std::to_string(row.lanes) + " " +
@@ -106,20 +110,35 @@ class Table {
     return json;
   }
 
-  const BenchRows& bench_;
+  const std::vector<BenchRow>& rows_;
+  Isa isa_;
   const std::map<std::string, Timing>& timings_;
 };
 
 void run(const BenchOptions& o) {
-  const BenchRows bench{loadReferenceModel(o.resources)};
+  constexpr int kLastKernelRow = 6;
+  const auto asksFor = [&](const auto& which) { return o.rows.empty() || std::ranges::any_of(o.rows, which); };
+  std::optional<BenchRows> kernels;
+  std::optional<RetargetRows> retargeting;
+  std::vector<BenchRow> rows;
+  if (asksFor([](int row) { return row <= kLastKernelRow; })) {
+    kernels.emplace(loadReferenceModel(o.resources));
+    rows = kernels->rows();
+    std::erase_if(rows, [&](const BenchRow& row) {
+      return !o.rows.empty() && std::ranges::find(o.rows, row.number) == o.rows.end();
+    });
+  }
+  if (asksFor([](int row) { return row > kLastKernelRow; })) {
+    retargeting.emplace(o.resources, o.rows);
+    rows.insert(rows.end(), retargeting->rows().begin(), retargeting->rows().end());
+  }
   std::map<std::string, Workload> workloads;
-  for (const BenchRow& row : bench.rows()) {
-    if (!o.rows.empty() && std::ranges::find(o.rows, row.number) == o.rows.end()) continue;
+  for (const BenchRow& row : rows) {
     workloads["ours " + row.id] = row.ours;
     if (row.peer) workloads["peer " + row.id] = *row.peer;
   }
   const auto timings = measure(workloads, o.windows, o.window_s);
-  const Table table{bench, timings};
+  const Table table{rows, kernels ? kernels->isa() : chosenIsa(), timings};
   if (!o.out.empty()) writeFileAtomically(o.out, table.json().dump(1) + "\n");
   std::cout << (o.json ? table.json().dump(1) + "\n" : table.text());
 }
@@ -128,7 +147,8 @@ int main(int argc, char** argv) {
   BenchOptions o;
   CLI::App app{"Speed against other programs on the same model, measured in one run.", "sinew-bench"};
   app.add_option("--resources", o.resources, "folder of the reference data")->required();
-  app.add_option("--row", o.rows, "rows of the table, 1 to 6; all if not given")->check(CLI::Range(1, 6));
+  app.add_option("--row", o.rows, "rows of the table, 1 to 8 and 14; all if not given")
+      ->check(CLI::IsMember({1, 2, 3, 4, 5, 6, 7, 8, 14}));
   app.add_option("--windows", o.windows, "measurements of each")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--window-seconds", o.window_s, "shortest time of one")
       ->check(CLI::PositiveNumber)

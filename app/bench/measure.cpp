@@ -60,6 +60,7 @@ std::map<std::string, Timing> measure(const std::map<std::string, Workload>& wor
                                  })
         ->Repetitions(windows)
         ->MinTime(window_s)
+        ->MeasureProcessCPUTime()  // of all threads
         ->Unit(benchmark::kMicrosecond);
   Collector collector{workloads, timings};
   benchmark::RunSpecifiedBenchmarks(&collector);

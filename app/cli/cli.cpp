@@ -92,6 +92,8 @@ void addCommands(Commands& commands) {
   addEvaluateCommand(commands);
   addCurveCommand(commands);
   addRomCommand(commands);
+  addRetargetCommand(commands);
+  addExperimentCommand(commands);
   addRomEditCommand(commands);
   addExportCommand(commands);
   addImportCommand(commands);

@@ -38,6 +38,8 @@ void addPhysicsCommand(CLI::App& model, Commands& commands);
 void addEvaluateCommand(Commands& commands);
 void addCurveCommand(Commands& commands);
 void addRomCommand(Commands& commands);
+void addRetargetCommand(Commands& commands);
+void addExperimentCommand(Commands& commands);
 void addRomEditCommand(Commands& commands);
 void addExportCommand(Commands& commands);
 void addImportCommand(Commands& commands);

@@ -1,9 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "app/scene/rgb_image.h"
 
 namespace sinew {
+
+std::string pngBytes(const RgbImage& picture);
 
 /// Writes a drawn picture, beside and then into place. @throws InputError for a name that does not end in .png or a
 /// place that cannot be written.

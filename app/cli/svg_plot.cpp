@@ -3,41 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "app/cli/svg_parts.h"
 
 namespace sinew {
 namespace {
 
 constexpr double kWidth = 720, kPanelHeight = 240, kLeft = 84, kRight = 24, kTop = 52, kGap = 40, kBottom = 56;
-constexpr std::array kColours = {"#0b5394", "#b45309", "#3f6212"};  // dark enough for grey prints
-constexpr std::array kDashes = {"", "7 4", "2 3"};
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
-std::string tickText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return out;
-}
-
-std::string textAt(double x, double y, const std::string& text, const std::string& more = {}) {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" " + more + ">" + escaped(text) + "</text>\n";
-}
-
-std::string lineAt(double x1, double y1, double x2, double y2, const std::string& stroke) {
-  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) +
-         "\" stroke=\"" + stroke + "\"/>\n";
-}
+// Dark enough for grey prints.
+constexpr std::array kColours = {"#0b5394", "#b45309", "#3f6212", "#7c3aed", "#be123c"};
+constexpr std::array kDashes = {"", "7 4", "2 3", "10 3 2 3", "4 2"};
 
 /// Linear map of values to the drawing.
 struct Axis {
@@ -66,7 +41,7 @@ std::string polyline(const std::vector<double>& x, const PlotLine& line, const A
       pen_down = false;
       continue;
     }
-    path += (pen_down ? "L" : "M") + number(to_u(x[i])) + " " + number(to_v(line.y[i])) + " ";
+    path += (pen_down ? "L" : "M") + svgNumber(to_u(x[i])) + " " + svgNumber(to_v(line.y[i])) + " ";
     pen_down = true;
   }
   return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
@@ -80,20 +55,23 @@ std::string panelSvg(const PlotPanel& panel, const std::vector<double>& x, const
   const Axis to_u = axisOver(x_ticks, kLeft, kWidth - kRight), to_v = axisOver(y_ticks, bottom, top);
   std::string svg;
   for (const double y : y_ticks) {
-    svg += lineAt(kLeft, to_v(y), kWidth - kRight, to_v(y), std::abs(y) < 1e-12 ? "#666666" : "#dddddd");
-    svg += textAt(kLeft - 8, to_v(y) + 4, tickText(y), "text-anchor=\"end\"");
+    svg += svgLine(kLeft, to_v(y), kWidth - kRight, to_v(y), std::abs(y) < 1e-12 ? "#666666" : "#dddddd");
+    svg += svgText(kLeft - 8, to_v(y) + 4, tickText(y), "text-anchor=\"end\"");
   }
-  for (const double tick : x_ticks) svg += lineAt(to_u(tick), top, to_u(tick), bottom, "#dddddd");
-  svg += "<text transform=\"translate(20 " + number((top + bottom) / 2) + ") rotate(-90)\" text-anchor=\"middle\">" +
-         escaped(panel.y_label) + "</text>\n";
+  for (const double tick : x_ticks) svg += svgLine(to_u(tick), top, to_u(tick), bottom, "#dddddd");
+  svg += "<text transform=\"translate(20 " + svgNumber((top + bottom) / 2) +
+         ") rotate(-90)\" text-anchor=\"middle\">" + svgEscaped(panel.y_label) + "</text>\n";
   for (std::size_t i = 0; i < panel.lines.size(); ++i) {
     svg += polyline(x, panel.lines[i], to_u, to_v, i);
     if (panel.lines.size() < 2) continue;
-    const double u = kLeft + 12 + 190 * static_cast<double>(i), v = top - 8;
-    svg += "<line x1=\"" + number(u) + "\" y1=\"" + number(v - 4) + "\" x2=\"" + number(u + 28) + "\" y2=\"" +
-           number(v - 4) + "\" stroke=\"" + kColours[i % kColours.size()] +
+    const double u = kLeft + 12 +
+                     std::min(190.0, (kWidth - kLeft - kRight) / static_cast<double>(panel.lines.size())) *
+                         static_cast<double>(i),
+                 v = top - 8;
+    svg += "<line x1=\"" + svgNumber(u) + "\" y1=\"" + svgNumber(v - 4) + "\" x2=\"" + svgNumber(u + 28) +
+           "\" y2=\"" + svgNumber(v - 4) + "\" stroke=\"" + kColours[i % kColours.size()] +
            "\" stroke-width=\"2\" stroke-dasharray=\"" + kDashes[i % kDashes.size()] + "\"/>\n" +
-           textAt(u + 34, v, panel.lines[i].label);
+           svgText(u + 34, v, panel.lines[i].label);
   }
   return svg;
 }
@@ -118,11 +96,7 @@ std::string plotSvg(const std::string& title, const std::string& x_label, const 
   const double height = kTop + static_cast<double>(panels.size()) * (kPanelHeight + kGap) - kGap + kBottom;
   const auto [low, high] = std::ranges::minmax(x);
   const auto x_ticks = niceTicks(low, high, 7);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(kWidth) + "\" height=\"" +
-                    number(height) + "\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
-                    "\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\" fill=\"#222222\">\n" +
-                    "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
-                    textAt(kLeft, 22, title, "font-size=\"15\" font-weight=\"bold\"");
+  std::string svg = svgStart(kWidth, height) + svgText(kLeft, 22, title, "font-size=\"15\" font-weight=\"bold\"");
   double top = kTop;
   for (const auto& panel : panels) {
     svg += panelSvg(panel, x, x_ticks, top);
@@ -130,8 +104,8 @@ std::string plotSvg(const std::string& title, const std::string& x_label, const 
   }
   const Axis to_u = axisOver(x_ticks, kLeft, kWidth - kRight);
   for (const double tick : x_ticks)
-    svg += textAt(to_u(tick), top - kGap + 18, tickText(tick), "text-anchor=\"middle\"");
-  svg += textAt((kLeft + kWidth - kRight) / 2, top - kGap + 40, x_label, "text-anchor=\"middle\"");
+    svg += svgText(to_u(tick), top - kGap + 18, tickText(tick), "text-anchor=\"middle\"");
+  svg += svgText((kLeft + kWidth - kRight) / 2, top - kGap + 40, x_label, "text-anchor=\"middle\"");
   return svg + "</svg>\n";
 }
 

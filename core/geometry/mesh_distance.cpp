@@ -122,6 +122,7 @@ struct MeshDistance::Piece {
   };
   static constexpr int kLeaf = 4;
   std::vector<Face> faces;
+  std::vector<std::array<Vector3d, 3>> corners;  ///< of the faces once more, close together
   std::vector<Node> nodes;
 
   int build(int begin, int end) {
@@ -146,24 +147,30 @@ struct MeshDistance::Piece {
     double best = std::numeric_limits<double>::infinity();
     OnTriangle on{Vector3d::Zero(), 6};
     const Face* face = nullptr;
-    std::array<int, 64> stack;
+    struct Waiting {
+      int node;
+      double squared;  // distance of its box
+    };
+    std::array<Waiting, 64> stack;
     int top = 0;
-    stack[top++] = 0;
+    stack[top++] = {0, 0};
     while (top > 0) {
-      const Node& node = nodes[stack[--top]];
-      if (node.box.squaredDistance(p) >= best) continue;
+      const Waiting next = stack[--top];
+      if (next.squared >= best) continue;
+      const Node& node = nodes[next.node];
       if (node.left < 0) {
         for (int i = node.begin; i < node.end; ++i) {
-          const OnTriangle candidate =
-              nearestOnTriangle(p, faces[i].corner[0], faces[i].corner[1], faces[i].corner[2]);
+          const OnTriangle candidate = nearestOnTriangle(p, corners[i][0], corners[i][1], corners[i][2]);
           const double squared = (candidate.point - p).squaredNorm();
           if (squared < best) best = squared, on = candidate, face = &faces[i];
         }
         continue;
       }
-      const bool left_first = nodes[node.left].box.squaredDistance(p) <= nodes[node.right].box.squaredDistance(p);
-      stack[top++] = left_first ? node.right : node.left;
-      stack[top++] = left_first ? node.left : node.right;
+      Waiting near{node.left, nodes[node.left].box.squaredDistance(p)};
+      Waiting far{node.right, nodes[node.right].box.squaredDistance(p)};
+      if (near.squared > far.squared) std::swap(near, far);
+      if (far.squared < best) stack[top++] = far;
+      if (near.squared < best) stack[top++] = near;
     }
     const Vector3d normal = face->pseudonormal[on.feature].normalized();
     const double sign = (p - on.point).dot(face->pseudonormal[on.feature]) < 0 ? -1 : 1;
@@ -174,9 +181,10 @@ struct MeshDistance::Piece {
 MeshDistance::MeshDistance(const TriangleMesh& mesh) {
   require(!mesh.triangles.empty(), "MeshDistance: the mesh has triangles");
   for (const auto& triangles : connectedPieces(mesh)) {
-    Piece piece{facesOf(mesh.vertices, triangles), {}};
+    Piece piece{facesOf(mesh.vertices, triangles), {}, {}};
     piece.nodes.reserve(piece.faces.size());
     piece.build(0, static_cast<int>(piece.faces.size()));
+    for (const Face& face : piece.faces) piece.corners.push_back(face.corner);
     (signedVolume_m3({mesh.vertices, triangles}) < 0 ? cavities_ : pieces_).push_back(std::move(piece));
   }
 }

@@ -29,6 +29,20 @@ bool relax(const MusculotendonUnit& before, const std::vector<std::vector<RigidT
   return relaxed;
 }
 
+/// Fills in longest paths that are still 0; false if cancelled.
+bool sweepUnknown(const Model& model, const PoseSet& poses, std::vector<double>& longest_m, const Job& job) {
+  Musculature unknown;
+  for (std::size_t u = 0; u < longest_m.size(); ++u)
+    if (longest_m[u] == 0) unknown.units.push_back(model.musculature.units[u]);
+  if (unknown.units.empty()) return !job.cancelled();
+  const std::vector<double> found_m = longestOverPoses(model.skeleton, unknown, poses, job);
+  if (found_m.empty()) return false;
+  auto next = found_m.begin();
+  for (double& length_m : longest_m)
+    if (length_m == 0) length_m = *next++;
+  return true;
+}
+
 }  // namespace
 
 std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature& musculature, const PoseSet& poses,
@@ -50,10 +64,11 @@ std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature
 }
 
 MaximalLengths setMaximalLengths(const Model& reference, const std::vector<double>& reference_longest_m,
-                                 const PoseSet& poses, Model& model, const Job& job) {
-  MaximalLengths result;
-  result.longest_path_m = longestOverPoses(model.skeleton, model.musculature, poses, job);
-  if (result.longest_path_m.empty() && !model.musculature.units.empty()) return {.outcome = Outcome::Cancelled};
+                                 const PoseSet& poses, Model& model, const Job& job,
+                                 const std::vector<double>& known_longest_m) {
+  MaximalLengths result{.longest_path_m = known_longest_m};
+  result.longest_path_m.resize(model.musculature.units.size(), 0.0);
+  if (!sweepUnknown(model, poses, result.longest_path_m, job)) return {.outcome = Outcome::Cancelled};
   std::vector<std::vector<RigidTransform>> reference_rest, rest;
   for (const Posture& q : restingPostures(reference.skeleton)) {
     reference_rest.push_back(segmentPoses(reference.skeleton, q));

@@ -25,7 +25,9 @@ struct MaximalLengths {
 /// Fibre and tendon of every unit of `model`, in the reference's ratio. `reference_longest_m`:
 /// longestOverPoses() of the reference. Units that would pull at rest (core/rom/length_estimation.h) though the
 /// reference's do not are lengthened until they pull no more than there. A cancelled job leaves `model` as it was.
+/// `known_longest_m`: longest paths found before [m], 0 where unknown; empty: nothing is.
 MaximalLengths setMaximalLengths(const Model& reference, const std::vector<double>& reference_longest_m,
-                                 const PoseSet& poses, Model& model, const Job& job = {});
+                                 const PoseSet& poses, Model& model, const Job& job = {},
+                                 const std::vector<double>& known_longest_m = {});
 
 }  // namespace sinew

@@ -11,6 +11,9 @@ Minimum leastSquares(const UnitProblem& problem, Objective objective, const Eige
   constexpr int kMostTrials = 6;
   Minimum best{from};
   UnitProblem::Expansion e;
+  Eigen::MatrixXd damped;
+  Eigen::LDLT<Eigen::MatrixXd> factored;
+  Eigen::VectorXd step, x;
   problem.expand(best.x, objective, e);
   best.energy = e.energy;
   double damping = kFirstDamping;
@@ -19,16 +22,16 @@ Minimum leastSquares(const UnitProblem& problem, Objective objective, const Eige
     const double before = best.energy;
     bool better = false;
     for (int trial = 0; trial < kMostTrials && !better; ++trial) {
-      Eigen::MatrixXd damped = e.hessian;
+      damped = e.hessian;
       // A point that may not move has a zero row; the added constant leaves it where it is.
-      damped.diagonal() = damped.diagonal() * (1 + damping) + Eigen::VectorXd::Constant(problem.unknowns(), 1e-12);
-      const Eigen::VectorXd step = damped.ldlt().solve(e.gradient);
+      damped.diagonal().array() = damped.diagonal().array() * (1 + damping) + 1e-12;
+      step = factored.compute(damped).solve(e.gradient);
       if (0.5 * e.gradient.dot(step) < tolerance * before) break;  // all that can be hoped for
-      const Eigen::VectorXd x = best.x - step;
+      x = best.x - step;
       const double energy = problem.energy(x, objective);
       better = energy < best.energy;
       if (better) {
-        best.x = x;
+        best.x.swap(x);
         best.energy = energy;
         damping = std::max(kLeastDamping, damping * 0.3);
       } else {

@@ -23,6 +23,10 @@ class TorqueGeometry {
   /// `postures`: motionPostures() of the reference; `units_of`: by motion, the units that span its coordinate.
   TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
                  const std::vector<JointMotion>& motions);
+  /// The same, of which `unchanged` units are taken over from `previous`.
+  TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
+                 const std::vector<JointMotion>& motions, const TorqueGeometry& previous,
+                 const std::vector<bool>& unchanged);
 
   struct UnitInMotion {
     int unit = -1;
@@ -51,7 +55,7 @@ struct PeakTorqueAngle {
 
 struct PeakTorqueOptions {
   double largest_change = 0.3;  ///< of a ratio
-  double ratio_price = 1e-5;    ///< of a squared relative change, against squared radians
+  double ratio_price = 1e-4;    ///< of a squared relative change, against squared shares of the greatest torque
   int most_iterations = 30;
 };
 

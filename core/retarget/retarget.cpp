@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
+#include "core/model/physical_scaling.h"
 #include "core/muscle/muscle_role.h"
 #include "core/rom/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
@@ -75,32 +77,57 @@ std::shared_ptr<const RetargetReference> loadRetargetReference(const std::filesy
   return std::make_shared<const RetargetReference>(std::move(model), std::move(motions), std::move(poses));
 }
 
-Retargeted retarget(const RetargetReference& reference, const ShapeParameters& shape, const RetargetOptions& options,
-                    const Job& job) {
+namespace {
+
+/// Whether units may be taken over.
+bool serves(const Retargeted* previous, const RetargetOptions& options) {
+  return previous && previous->outcome == Outcome::Converged && previous->torque_geometry &&
+         previous->options.method == options.method && previous->options.weights == options.weights;
+}
+
+Retargeted retargeted(const RetargetReference& reference, const ShapeParameters& shape,
+                      const RetargetOptions& options, const Job& job, const Retargeted* previous) {
   StopWatch watch;
   Retargeted result{.model = deformedModel(reference.model(), shape)};
+  if (options.physics) result.model = withPhysics(result.model, reference.model(), *options.physics);
   result.times.deformation_s = watch.lap_s();
+  result.options = options;
   const Retargeted cancelled{.outcome = Outcome::Cancelled};
+  if (job.cancelled()) return cancelled;
 
+  if (!serves(previous, options)) previous = nullptr;
+  std::vector<bool> unchanged;
+  std::optional<PreviousRouting> previous_routing;
+  if (previous) {
+    unchanged = unchangedUnits(reference.routing(), previous->model.shape, shape);
+    previous_routing.emplace(previous->model, previous->routing);
+  }
   Routing routing = route(reference.model(), reference.routing(), result.model, {options.method, options.weights},
-                          step(job, 0, 0.6));
+                          step(job, 0, 0.6), previous_routing ? &*previous_routing : nullptr);
   if (routing.outcome == Outcome::Cancelled) return cancelled;
   result.routing = std::move(routing.units);
   result.times.routing_s = watch.lap_s();
 
   const bool naive = options.method == RetargetMethod::Naive;
   if (!naive) {
+    std::vector<double> known_m(unchanged.size(), 0.0);
+    for (std::size_t u = 0; u < known_m.size(); ++u)
+      if (unchanged[u]) known_m[u] = previous->lengths.longest_path_m[u];
     result.lengths = setMaximalLengths(reference.model(), reference.longest_m(), reference.poses(), result.model,
-                                       step(job, 0.6, 0.8));
+                                       step(job, 0.6, 0.8), known_m);
     if (result.lengths.outcome == Outcome::Cancelled) return cancelled;
   }
   result.times.lengths_s = watch.lap_s();
 
-  const TorqueGeometry geometry{result.model, reference.torquePostures(), reference.unitsOfMotion(),
-                                reference.motions()};
+  result.torque_geometry =
+      previous ? std::make_shared<const TorqueGeometry>(result.model, reference.torquePostures(),
+                                                        reference.unitsOfMotion(), reference.motions(),
+                                                        *previous->torque_geometry, unchanged)
+               : std::make_shared<const TorqueGeometry>(result.model, reference.torquePostures(),
+                                                        reference.unitsOfMotion(), reference.motions());
   PeakTorqueOptions peak_options;
   if (naive || !options.peak_torque) peak_options.most_iterations = 0;
-  PeakTorqueResult peaks = optimizePeakTorque(geometry, reference.motions(), reference.peakThetas(),
+  PeakTorqueResult peaks = optimizePeakTorque(*result.torque_geometry, reference.motions(), reference.peakThetas(),
                                               result.model.musculature, peak_options, step(job, 0.8, 1));
   if (peaks.outcome == Outcome::Cancelled) return cancelled;
   result.peak_torque = std::move(peaks.angles);
@@ -108,6 +135,18 @@ Retargeted retarget(const RetargetReference& reference, const ShapeParameters& s
   result.times.peak_torque_s = watch.lap_s();
   result.outcome = Outcome::Converged;
   return result;
+}
+
+}  // namespace
+
+Retargeted retarget(const RetargetReference& reference, const ShapeParameters& shape, const RetargetOptions& options,
+                    const Job& job) {
+  return retargeted(reference, shape, options, job, nullptr);
+}
+
+Retargeted retarget(const RetargetReference& reference, const ShapeParameters& shape, const RetargetOptions& options,
+                    const Job& job, const Retargeted& previous) {
+  return retargeted(reference, shape, options, job, &previous);
 }
 
 }  // namespace sinew

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,9 @@ struct RetargetOptions {
   RetargetMethod method = RetargetMethod::Sinew;
   RoutingWeights weights;
   bool peak_torque = true;  ///< step 3
+  /// Masses and strengths (core/model/physical_scaling.h), which peak torques depend on; nullopt: those of
+  /// deformedModel().
+  std::optional<PhysicsFactors> physics;
 };
 
 struct RetargetTimes {
@@ -70,6 +74,8 @@ struct Retargeted {
   std::vector<PeakTorqueAngle> peak_torque;  ///< by motion; naive: before and after are the same
   std::vector<double> fiber_tendon_ratio;    ///< by unit, relative to the reference's
   RetargetTimes times;
+  RetargetOptions options;                                ///< asked for
+  std::shared_ptr<const TorqueGeometry> torque_geometry;  ///< of step 3
 };
 
 /// The reference in a body of `shape`. With RetargetMethod::Naive the points move with their bones and lengths scale
@@ -77,5 +83,10 @@ struct Retargeted {
 /// @throws InputError for a shape that the deformation cannot represent.
 Retargeted retarget(const RetargetReference& reference, const ShapeParameters& shape,
                     const RetargetOptions& options = {}, const Job& job = {});
+
+/// The same result, to the last bit, sooner: units that feel nothing of what has changed in the shape since
+/// `previous` (of the same reference) are taken over from it. For a slider that is being dragged.
+Retargeted retarget(const RetargetReference& reference, const ShapeParameters& shape, const RetargetOptions& options,
+                    const Job& job, const Retargeted& previous);
 
 }  // namespace sinew

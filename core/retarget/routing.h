@@ -15,7 +15,7 @@ namespace sinew {
 enum class RetargetMethod {
   Naive,  ///< points move with their bones, lengths scale with the path: what is retargeted from
   Paper,  ///< gradient descent, finite differences, line search: Ryu et al.
-  Sinew   ///< non-linear least squares with analytic derivatives, curve shape first, several starts
+  Sinew   ///< non-linear least squares with analytic derivatives, two starts, rounds over curved bones
 };
 std::string_view nameOf(RetargetMethod method);  ///< "naive", ...
 /// @throws InputError with the known names.
@@ -32,7 +32,7 @@ struct RoutingWeights {
   double via_1_m2 = 100;          ///< a via point that moves by 1 cm costs 0.01 ...
   double attachment_1_m2 = 5000;  ///< ... an attachment that slides on its bone by 1 cm costs 0.5 ...
   double inside_1_m2 = 20000;     ///< ... and 1 cm into the bone that a via point glides on costs 2
-  double reversal = 10000;        ///< of a slope against the reference's, squared
+  double reversal = 3000;         ///< of a step against the reference, in shares of its range, squared
   friend bool operator==(const RoutingWeights&, const RoutingWeights&) = default;
 };
 
@@ -70,11 +70,21 @@ struct Routing {
   std::vector<UnitRouting> units;  ///< in the order of the model
 };
 
+/// An earlier result with the same reference, method and weights: units that feel nothing of what has changed since
+/// take it over, to the last bit what they would come to anew.
+struct PreviousRouting {
+  const Model& model;
+  const std::vector<UnitRouting>& units;
+};
+/// Units whose path in a body of `shape` is the one they have in `previous`.
+std::vector<bool> unchangedUnits(const RoutingReference& prepared, const ShapeParameters& previous,
+                                 const ShapeParameters& shape);
+
 /// Moves the path points of `model`: `reference` in a new body, points anchored naively (deformedModel()); fibre and
-/// tendon lengths stay. Muscles are independent of each other and solved in parallel; a body with equal sides is
-/// solved on the right and mirrored. The same input gives the same result, whatever the number of processors. A
+/// tendon lengths stay. Muscles are independent of each other and solved in parallel; where both sides are equal the
+/// right one is solved and mirrored. The same input gives the same result, whatever the number of processors. A
 /// cancelled job leaves `model` as it was.
 Routing route(const Model& reference, const RoutingReference& prepared, Model& model,
-              const RoutingOptions& options = {}, const Job& job = {});
+              const RoutingOptions& options = {}, const Job& job = {}, const PreviousRouting* previous = nullptr);
 
 }  // namespace sinew

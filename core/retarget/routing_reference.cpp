@@ -78,6 +78,10 @@ PointGuide guideOf(const PathPoint& point, const BoneDistances& bones) {
   if (guide.surface_segment >= 0) {
     guide.surface_B = nearest.nearest.point;
     guide.clearance_m = nearest.nearest.distance_m;
+    const auto found = std::ranges::find_if(bones.bones(), [&](const BoneDistances::Bone& bone) {
+      return bone.segment == guide.surface_segment && bone.name == nearest.bone;
+    });
+    guide.bone = static_cast<int>(found - bones.bones().begin());
   }
   if (guide.attachment) {
     const bool slides = point.anchors.size() == 1 && guide.surface_segment >= 0;
@@ -132,7 +136,8 @@ MotionPoses::MotionPoses(const Skeleton& skeleton, const std::vector<RoutingMoti
 RoutingReference::RoutingReference(const Model& reference, const std::vector<JointMotion>& motions)
     : motions_{sampled(distinctWays(motions), reference.skeleton)},
       poses_{reference.skeleton, motions_},
-      bones_{reference} {
+      bones_{reference},
+      dependencies_{reference} {
   require(reference.shape == ShapeParameters{}, "RoutingReference: shapes are relative to the undeformed reference");
   const Kinematics clinical = clinicalKinematics(reference.skeleton, zeroPosture(reference.skeleton));
   for (const MusculotendonUnit& unit : reference.musculature.units) {

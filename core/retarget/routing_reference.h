@@ -7,6 +7,7 @@
 #include "core/model/model.h"
 #include "core/model/path_clearance.h"
 #include "core/retarget/length_curve.h"
+#include "core/retarget/shape_dependencies.h"
 #include "core/skeleton/joint_motion.h"
 
 namespace sinew {
@@ -42,8 +43,9 @@ struct PointGuide {
   Eigen::Matrix3d basis_B = Eigen::Matrix3d::Identity();
   bool attachment = false;
   int heaviest_anchor = 0;
-  /// Nearest bone surface, of the segments that a via point hangs on, in the frame of `surface_segment`.
+  /// Nearest bone surface, of the segments that the point hangs on, in the frame of `surface_segment`.
   int surface_segment = -1;
+  int bone = -1;  ///< of BoneDistances::bones()
   Eigen::Vector3d surface_B = Eigen::Vector3d::Zero();
   double clearance_m = 0;  ///< distance from there; negative inside
 };
@@ -78,6 +80,7 @@ class RoutingReference {
   const BoneDistances& bones() const { return bones_; }
   /// Index of the mirror image of each unit in the reference; -1 if its points are no mirror image.
   const std::vector<int>& mirrorOf() const { return mirror_of_; }
+  const ShapeDependencies& dependencies() const { return dependencies_; }
 
  private:
   std::vector<RoutingMotion> motions_;
@@ -86,6 +89,7 @@ class RoutingReference {
   std::vector<std::vector<PointGuide>> guides_;
   std::vector<int> mirror_of_;
   BoneDistances bones_;
+  ShapeDependencies dependencies_;
 };
 
 }  // namespace sinew

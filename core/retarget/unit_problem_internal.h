@@ -7,10 +7,10 @@
 
 namespace sinew {
 
-/// What is minimised: RoutingEnergy::total(), or a smooth stand-in that compares whole curves alone, without their
-/// features, whose places may jump.
+/// What is minimised: RoutingEnergy::total() and
 struct Objective {
-  bool features = true;
+  /// a price of moving attachments away from where they are: the surface of their bone is flat only near them.
+  double slide_1_m2 = 0;
 };
 
 /// The routing energy of one unit in one new body as a function of the displacements of its points: three unknowns a
@@ -23,17 +23,19 @@ class UnitProblem {
     Eigen::Matrix3d basis_B = Eigen::Matrix3d::Zero();  ///< the same in the reference, in its segment's frame
     Eigen::Vector3d moved_B = Eigen::Vector3d::Zero();  ///< displacement so far, in the reference
     double price_1_m2 = 0;                              ///< of the whole displacement
+    bool slides = false;                                ///< over a bone, which is flat only nearby
     Eigen::Vector3d outward_W = Eigen::Vector3d::Zero();  ///< away from the bone it glides on; zero: there is none
     double slack_m = 0;                                   ///< how far it may move towards that bone
   };
-  /// `unit`: in the new body, its points where displacements count from. `zero_length_m`: what lengths are relative
-  /// to.
-  UnitProblem(const MusculotendonUnit& unit, const ReferenceCurves& reference, const MotionPoses& reference_poses,
-              const MotionPoses& poses, const std::vector<Point>& points, double zero_length_m,
-              const std::vector<RoutingMotion>& motions, const RoutingWeights& weights);
+  /// `anchors`: of every point in the new body, where displacements count from. `zero_length_m`: what lengths are
+  /// relative to.
+  UnitProblem(const std::vector<std::vector<Anchor>>& anchors, const ReferenceCurves& reference,
+              const MotionPoses& reference_poses, const MotionPoses& poses, const std::vector<Point>& points,
+              double zero_length_m, const std::vector<RoutingMotion>& motions, const RoutingWeights& weights);
 
   /// The same unit, its points elsewhere.
-  void moveTo(const MusculotendonUnit& unit, const std::vector<Point>& points);
+  void moveTo(const std::vector<std::vector<Anchor>>& anchors, const std::vector<Point>& points);
+  void movePoint(std::size_t p, const std::vector<Anchor>& anchors, const Point& point);
 
   int unknowns() const { return 3 * static_cast<int>(points_.size()); }
   bool isFree() const;  ///< any point may move, and there is something to compare
@@ -55,7 +57,7 @@ class UnitProblem {
   enum class Order { Value, Gradient, Hessian };  ///< how much is asked for
   struct Place {                                  ///< of one point at one sample
     Eigen::Vector3d c;
-    Eigen::Matrix3d D, DtD;
+    Eigen::Matrix3d D;
   };
   /// A piece of the path whose ends do not move against each other in a motion shapes no curve. If its bone also
   /// turns as in the reference, its direction is the same all the way, and in all such motions: one sample says all.
@@ -67,7 +69,9 @@ class UnitProblem {
     std::size_t piece;
     bool changes_length;
   };
-  void sortPieces(const MusculotendonUnit& unit, const MotionPoses& reference_poses);
+  void placePoint(std::size_t p, const std::vector<Anchor>& anchors);
+  void sortPieces(const std::vector<std::vector<Anchor>>& anchors, const MotionPoses& reference_poses);
+  bool changesLength(std::size_t motion) const { return changes_length_[motion]; }
 
   template <Order kOrder>
   double evaluate(const Eigen::VectorXd& x, Objective objective, RoutingEnergy& parts, Expansion& e) const;
@@ -78,13 +82,16 @@ class UnitProblem {
   template <Order kOrder>
   static double collect(const PieceSum& sum, std::size_t piece, Expansion& e);
   template <Order kOrder>
-  double addFeatures(std::size_t motion, Expansion& e) const;
+  double addFeatures(std::size_t motion) const;
   template <Order kOrder>
-  double addCurve(std::size_t motion, double weight, Expansion& e) const;
+  double addCurve(std::size_t motion, double weight) const;
   template <Order kOrder>
-  double addReversals(std::size_t motion, Expansion& e) const;
+  double addReversals(std::size_t motion) const;
+  Eigen::MatrixXd::ColXpr addResidual(double residual) const;
   template <Order kOrder>
-  double addPrices(const Eigen::VectorXd& x, Expansion& e) const;
+  void addResiduals(Expansion& e) const;
+  template <Order kOrder>
+  double addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expansion& e, double& slide) const;
 
   const ReferenceCurves* reference_;
   const MotionPoses* poses_;
@@ -94,11 +101,16 @@ class UnitProblem {
   std::vector<Place> places_;  ///< [motion][sample][point]
   std::vector<RigidPiece> rigid_;
   std::vector<std::vector<MovingPiece>> moving_;  ///< by motion: the other pieces
+  std::vector<bool> changes_length_;              ///< by motion: any of them
   double zero_length_m_;
 
   // Working memory of one evaluation: a problem belongs to one thread.
   mutable std::vector<double> lengths_;    ///< of the present motion, relative, without rigid pieces
   mutable Eigen::MatrixXd length_slopes_;  ///< unknowns x samples
+  mutable Eigen::VectorXd mean_slope_;
+  mutable Eigen::MatrixXd residual_slopes_;  ///< unknowns x residuals, of which the first residual_count_ are in use
+  mutable Eigen::VectorXd residuals_;
+  mutable Eigen::Index residual_count_ = 0;
 };
 
 }  // namespace sinew

@@ -1,0 +1,126 @@
+#include "app/bench/retarget_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/bench/dart_routing.h"
+#include "core/experiments/characters.h"
+#include "core/experiments/experiment_shapes.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::uint64_t kSeed = 7;
+constexpr int kUnitsOnDart = 12;  // of all, evenly spread: the rest is extrapolated
+
+BenchRow row(int number, const std::string& id, const std::string& task, const std::string& item, double target,
+             const std::string& peer) {
+  return {.number = number,
+          .id = id,
+          .task = task,
+          .item = item,
+          .real = "double",
+          .lanes = 1,
+          .target_ratio = target,
+          .peer_name = peer,
+          .ours = {},
+          .peer = std::nullopt};
+}
+
+}  // namespace
+
+RetargetRows::RetargetRows(const std::filesystem::path& resource_dir, const std::vector<int>& wanted)
+    : reference_{loadRetargetReference(resource_dir)}, asymmetric_{randomShapes(1, {}, kSeed).front()} {
+  slider_.sides[0].femur.elongation = 1.05;
+  const auto asked = [&](int number) { return wanted.empty() || std::ranges::count(wanted, number) > 0; };
+  if (asked(7)) addRouting();
+  if (asked(8)) addPeakTorque();
+  if (asked(14)) addWholeBody();
+}
+
+void RetargetRows::addRouting() {
+  const auto naive = std::make_shared<const Model>(deformedModel(reference_->model(), asymmetric_));
+  const auto routed = [reference = reference_, naive](RetargetMethod method) {
+    Model model = *naive;
+    return route(reference->model(), reference->routing(), model, {.method = method}).units;
+  };
+  const std::vector<UnitRouting> solved = routed(RetargetMethod::Sinew);
+  const EnergyTotals ours = energyTotals(solved), paper = energyTotals(routed(RetargetMethod::Paper));
+  if (!(ours.end <= paper.end)) throw std::runtime_error{"row 7 is not timed: the descent reaches a lower energy"};
+
+  const Workload work{[routed] { routed(RetargetMethod::Sinew); }, 1};
+  BenchRow descent = row(7, "7", "routing of all units, body without symmetry", "body", 6,
+                         "gradient descent, finite differences, our energy");
+  descent.ours = work;
+  descent.peer = Workload{[routed] { routed(RetargetMethod::Paper); }, 1};
+  rows_.push_back(descent);
+
+  auto dart = std::make_shared<DartRouting>(*reference_, *naive);
+  const double units = double(naive->musculature.units.size());
+  BenchRow on_dart = row(7, "7 DART", "the same", "body", 80,
+                         DartPeer::version() + ", gradient descent, " + std::to_string(kUnitsOnDart) + " of " +
+                             std::to_string(int(units)) + " units measured, the rest extrapolated");
+  on_dart.ours = {work.run, units};
+  on_dart.items = units;
+  if (dart->isThere()) {
+    std::vector<std::size_t> some;
+    for (int k = 0; k < kUnitsOnDart; ++k) some.push_back(std::size_t((k + 0.5) * units / kUnitsOnDart));
+    for (const std::size_t u : some)
+      if (std::abs(dart->startEnergy(u) - solved[u].start.paper({})) > 1e-9 * (1 + solved[u].start.paper({})))
+        throw std::runtime_error{"row 7 is not timed: the energy of " + solved[u].unit + " differs with DART"};
+    on_dart.peer = Workload{[dart, some] {
+                              for (const std::size_t u : some) dart->descend(u);
+                            },
+                            kUnitsOnDart};
+  }
+  rows_.push_back(on_dart);
+}
+
+void RetargetRows::addPeakTorque() {
+  auto model = std::make_shared<Model>(retarget(*reference_, asymmetric_, {.peak_torque = false}).model);
+  const auto geometryOf = [reference = reference_](const Model& m) {
+    return TorqueGeometry{m, reference->torquePostures(), reference->unitsOfMotion(), reference->motions()};
+  };
+  const auto geometry = std::make_shared<const TorqueGeometry>(geometryOf(*model));
+  const auto optimized = [reference = reference_, model, geometry] {
+    Musculature musculature = model->musculature;
+    return optimizePeakTorque(*geometry, reference->motions(), reference->peakThetas(), musculature);
+  };
+  // A gradient by finite differences needs the torques once a ratio.
+  const double evaluations = double(optimized().iterations) * double(model->musculature.units.size() + 1);
+  BenchRow peak = row(
+      8, "8", "peak torque: all ratios", "optimisation", 1000,
+      "finite differences, geometry recomputed: 1 evaluation measured, times " + std::to_string(long(evaluations)));
+  peak.items = evaluations;
+  peak.ours = {[optimized] { optimized(); }, evaluations};
+  peak.peer = Workload{[geometryOf, model] {
+                         const TorqueGeometry again = geometryOf(*model);
+                         for (std::size_t m = 0; m < again.motionCount(); ++m)
+                           motionTorque_Nm(model->musculature, again, m);
+                       },
+                       1};
+  rows_.push_back(peak);
+}
+
+void RetargetRows::addWholeBody() {
+  const auto body = [reference = reference_](const ShapeParameters& shape, RetargetMethod method) {
+    return Workload{[reference, shape, method] { retarget(*reference, shape, {.method = method}); }, 1};
+  };
+  const std::string peer = "routing by gradient descent";
+  BenchRow whole =
+      row(14, "14 retargeting", "shape, routing, lengths over 72,000 postures, peak torque; body without symmetry",
+          "body", 10, peer);
+  whole.ours = body(asymmetric_, RetargetMethod::Sinew);
+  whole.peer = body(asymmetric_, RetargetMethod::Paper);
+  BenchRow equal_sides = row(14, "14 equal sides", "the same, both sides alike", "body", 10, peer);
+  const ShapeParameters femora = withFemora(1.2, 0.2);
+  equal_sides.ours = body(femora, RetargetMethod::Sinew);
+  equal_sides.peer = body(femora, RetargetMethod::Paper);
+  BenchRow slider = row(14, "14 one femur", "the same, one femur longer by 5 %, everything anew", "body", 10, peer);
+  slider.ours = body(slider_, RetargetMethod::Sinew);
+  slider.peer = body(slider_, RetargetMethod::Paper);
+  rows_.insert(rows_.end(), {whole, equal_sides, slider});
+}
+
+}  // namespace sinew

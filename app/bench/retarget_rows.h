@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "app/bench/bench_rows.h"
+#include "core/retarget/retarget.h"
+
+namespace sinew {
+
+/// Rows 7, 8 and the retargeting of row 14. All processors work; CPU times are those of all threads together.
+class RetargetRows {
+ public:
+  /// Prepares the reference: seconds. @throws std::runtime_error as BenchRows.
+  RetargetRows(const std::filesystem::path& resource_dir, const std::vector<int>& wanted);
+  const std::vector<BenchRow>& rows() const { return rows_; }
+
+ private:
+  void addRouting();
+  void addPeakTorque();
+  void addWholeBody();
+
+  std::shared_ptr<const RetargetReference> reference_;
+  ShapeParameters asymmetric_, slider_;
+  std::vector<BenchRow> rows_;
+};
+
+}  // namespace sinew

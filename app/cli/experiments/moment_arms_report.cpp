@@ -1,0 +1,73 @@
+#include "app/cli/experiments/experiment.h"
+#include "app/cli/svg_plot.h"
+#include "app/cli/text_table.h"
+#include "core/experiments/moment_arm_curves.h"
+
+namespace sinew {
+namespace {
+
+constexpr double kMm = 1000;
+
+/// Whether the body's mean is above (+1) or below (-1) the reference's; nullopt for a body that is not in the figure.
+std::optional<int> against(const MomentArmFigure& figure, const std::string& body) {
+  for (const MomentArmCurve& curve : figure.curves)
+    if (curve.body == body) return curve.mean_m > figure.curves.front().mean_m ? 1 : -1;
+  return std::nullopt;
+}
+
+Verdict verdictOf(const std::vector<MomentArmFigure>& figures, const std::string& body, int wanted) {
+  int as_claimed = 0;
+  std::string ours;
+  for (std::size_t i = 0; i < 2; ++i) {  // hip extensor and flexor: what the claim is about
+    const MomentArmFigure& figure = figures[i];
+    as_claimed += against(figure, body) == wanted;
+    for (const MomentArmCurve& curve : figure.curves)
+      if (curve.body == body)
+        ours +=
+            (i ? ", " : "") + figure.question.muscle + " x " + fixed(curve.mean_m / figure.curves.front().mean_m, 2);
+  }
+  return {body + ": hip extensor and flexor", wanted > 0 ? "larger" : "smaller", "shown", ours, as_claimed == 2};
+}
+
+}  // namespace
+
+ExperimentReport momentArmsReport(ExperimentContext& context) {
+  const auto* characters = context.characters();
+  if (!characters) return {.outcome = Outcome::Cancelled};
+  // The human is the reference itself.
+  const std::span others{characters->data() + 1, characters->size() - 1};
+  ExperimentReport report{.outcome = Outcome::Converged};
+  std::vector<MomentArmFigure> figures;
+  std::vector<std::vector<std::string>> table;
+  Json list = Json::array();
+  for (const MomentArmQuestion& question : paperMomentArms()) {
+    const MomentArmFigure& figure = figures.emplace_back(momentArmFigure(context.reference(), others, question));
+    std::vector<PlotLine> lines;
+    std::vector<std::string> row = {question.muscle + ", " + figure.title};
+    Json curves = Json::array();
+    for (const MomentArmCurve& curve : figure.curves) {
+      PlotLine& line = lines.emplace_back(curve.body);
+      for (const double arm_m : curve.arm_m) line.y.push_back(kMm * arm_m);
+      row.push_back(fixed(kMm * curve.mean_m, 1));
+      curves.push_back({{"body", curve.body}, {"mean_m", curve.mean_m}, {"arm_m", curve.arm_m}});
+    }
+    table.push_back(row);
+    list.push_back({{"muscle", question.muscle},
+                    {"motion", question.motion},
+                    {"angle_deg", figure.angle_deg},
+                    {"curves", curves}});
+    report.figures.push_back({"moment-arms-" + question.muscle,
+                              plotSvg(question.muscle + ", " + figure.title, figure.coordinate + " [deg]",
+                                      figure.angle_deg, {{"moment arm [mm]", lines}})});
+  }
+  std::vector<std::string> header = {"mean moment arm [mm]"};
+  for (const MomentArmCurve& curve : figures.front().curves) header.push_back(curve.body);
+  report.text =
+      textTable(header, table) +
+      "Means over the motion, positive = turns that way; parts of a muscle weighted by their maximal forces.\n";
+  report.verdicts = {verdictOf(figures, "alien", 1), verdictOf(figures, "hulk", -1), verdictOf(figures, "dwarf", -1)};
+  report.result = {{"figures", list}};
+  return report;
+}
+
+}  // namespace sinew

@@ -1,0 +1,120 @@
+#include "core/experiments/method_comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <utility>
+
+namespace sinew {
+namespace {
+
+class MethodClock {
+ public:
+  MethodTime read() const {
+    return {double(std::clock() - cpu_) / CLOCKS_PER_SEC,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count()};
+  }
+
+ private:
+  std::clock_t cpu_ = std::clock();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+struct Routed {
+  std::vector<UnitRouting> units;
+  MethodTime time;
+};
+
+/// Empty if cancelled.
+Routed routed(const RetargetReference& reference, const Model& naive, RetargetMethod method, const Job& job) {
+  Model model = naive;
+  const MethodClock clock;
+  Routing routing = route(reference.model(), reference.routing(), model, {.method = method}, {.stop = job.stop});
+  return {std::move(routing.units), clock.read()};
+}
+
+std::vector<double> totals(const std::vector<UnitRouting>& units, RoutingEnergy UnitRouting::*which) {
+  std::vector<double> energies;
+  for (const UnitRouting& unit : units) energies.push_back((unit.*which).total({}));
+  return energies;
+}
+
+double paperEnergy(const std::vector<UnitRouting>& units) {
+  double sum = 0;
+  for (const UnitRouting& unit : units) sum += unit.end.paper({});
+  return sum;
+}
+
+void judge(const std::vector<std::string>& units, const BodyComparison& body, EnergyVerdict& v) {
+  constexpr double kNothing = 1e-9, kRounding = 1e-6;
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const double start = body.start[u], paper = body.paper[u], sinew = body.sinew[u];
+    v.sum_start += start, v.sum_paper += paper, v.sum_sinew += sinew;
+    if (start < kNothing) continue;
+    ++v.compared;
+    const double difference = sinew - paper;
+    if (std::abs(difference) <= kRounding * start)
+      ++v.equal;
+    else
+      ++(difference < 0 ? v.lower : v.higher);
+    if (difference <= kRounding * start) continue;
+    v.higher_by_one_percent += sinew > 1.01 * paper;
+    if (sinew / paper > v.worst_ratio) v.worst_ratio = sinew / paper, v.worst_unit = units[u] + ", " + body.name;
+  }
+}
+
+}  // namespace
+
+MethodTime BodyComparison::wholePaper() const {
+  return {whole_sinew.cpu_s - routing_sinew.cpu_s + routing_paper.cpu_s,
+          whole_sinew.wall_s - routing_sinew.wall_s + routing_paper.wall_s};
+}
+
+MethodComparison compareMethods(const RetargetReference& reference, const std::vector<NamedShape>& shapes,
+                                const Job& job) {
+  MethodComparison result;
+  for (const auto& unit : reference.model().musculature.units) result.units.push_back(unit.name);
+  for (const NamedShape& shape : shapes) {
+    job.report(double(result.bodies.size()) / double(shapes.size()), "both methods");
+    const Model naive = deformedModel(reference.model(), shape.shape);
+    const Routed paper = routed(reference, naive, RetargetMethod::Paper, job);
+    const Routed sinew = routed(reference, naive, RetargetMethod::Sinew, job);
+    const MethodClock clock;
+    const Retargeted whole = retarget(reference, shape.shape, {}, {.stop = job.stop});
+    const MethodTime whole_time = clock.read();
+    if (whole.outcome != Outcome::Converged) return {.outcome = whole.outcome};
+    result.bodies.push_back({shape.name, totals(sinew.units, &UnitRouting::start),
+                             totals(paper.units, &UnitRouting::end), totals(sinew.units, &UnitRouting::end),
+                             paperEnergy(paper.units), paperEnergy(sinew.units), paper.time, sinew.time, whole_time});
+  }
+  result.outcome = Outcome::Converged;
+  return result;
+}
+
+EnergyVerdict energyVerdict(const std::vector<std::string>& units, const BodyComparison& body) {
+  EnergyVerdict verdict;
+  judge(units, body, verdict);
+  return verdict;
+}
+
+EnergyVerdict energyVerdict(const MethodComparison& comparison) {
+  EnergyVerdict verdict;
+  for (const BodyComparison& body : comparison.bodies) judge(comparison.units, body, verdict);
+  return verdict;
+}
+
+FunctionKeeping functionKeeping(const RetargetReference& reference, const std::vector<ShapeParameters>& shapes,
+                                const Job& job) {
+  FunctionKeeping result;
+  for (const ShapeParameters& shape : shapes) {
+    job.report(double(result.retargeted.size()) / double(shapes.size()), "functions of mild shapes");
+    const Retargeted body = retarget(reference, shape, {.peak_torque = false}, {.stop = job.stop});
+    if (body.outcome != Outcome::Converged) return {.outcome = body.outcome};
+    result.naive.push_back(keptFunctions(reference, deformedModel(reference.model(), shape)));
+    result.retargeted.push_back(keptFunctions(reference, body.model));
+  }
+  result.outcome = Outcome::Converged;
+  return result;
+}
+
+}  // namespace sinew

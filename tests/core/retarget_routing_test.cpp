@@ -1,0 +1,196 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "core/muscle/muscle_path.h"
+#include "core/retarget/unit_problem_internal.h"
+#include "tests/support/retarget_reference.h"
+
+namespace sinew {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+const RetargetReference& reference() {
+  return *test::retargetReference();
+}
+
+ShapeParameters shortTurnedLeg() {
+  ShapeParameters shape;
+  shape.sides[0].femur = {.elongation = 0.85, .torsion_rad = 20 * kDegree};
+  shape.sides[0].tibia = {.elongation = 1.2, .torsion_rad = -15 * kDegree};
+  return shape;
+}
+
+Routing routed(const ShapeParameters& shape, RetargetMethod method, Model& model) {
+  model = deformedModel(reference().model(), shape);
+  return route(reference().model(), reference().routing(), model, {.method = method});
+}
+
+/// One unit of a deformed body, all of whose points may go anywhere.
+struct FreeUnit {
+  Model model;
+  MotionPoses poses;
+  std::vector<std::vector<Anchor>> anchors;
+  std::vector<UnitProblem::Point> points;
+  UnitProblem problem;
+
+  FreeUnit(const std::string& name, const ShapeParameters& shape)
+      : model{deformedModel(reference().model(), shape)},
+        poses{model.skeleton, reference().routing().motions()},
+        anchors{anchorsOf(model.musculature.unit(name))},
+        points(anchors.size()),
+        problem{anchors,
+                reference().routing().curves(index(name)),
+                reference().routing().poses(),
+                poses,
+                freed(points),
+                pathLength(model.musculature.unit(name), poses.atZero()),
+                reference().routing().motions(),
+                {}} {}
+
+  static std::size_t index(const std::string& name) {
+    return static_cast<std::size_t>(reference().model().musculature.unitIndex(name));
+  }
+  static std::vector<std::vector<Anchor>> anchorsOf(const MusculotendonUnit& unit) {
+    std::vector<std::vector<Anchor>> anchors;
+    for (const PathPoint& point : unit.path) anchors.push_back(point.anchors);
+    return anchors;
+  }
+  static const std::vector<UnitProblem::Point>& freed(std::vector<UnitProblem::Point>& points) {
+    for (UnitProblem::Point& point : points) {
+      point.basis_W = point.basis_B = Eigen::Matrix3d::Identity();
+      point.price_1_m2 = 100;
+      point.slides = true;
+      point.outward_W = Eigen::Vector3d::UnitX();  // guarded: some displacements go inside
+    }
+    return points;
+  }
+};
+
+TEST(RetargetRouting, TheGradientOfTheEnergyIsThatOfCentralDifferences) {
+  FreeUnit unit{"sartorius_r", shortTurnedLeg()};
+  std::mt19937 random{7};
+  std::uniform_real_distribution<double> displacement_m{-0.004, 0.004};
+  Eigen::VectorXd x(unit.problem.unknowns());
+  for (double& value : x) value = displacement_m(random);
+
+  UnitProblem::Expansion expansion;
+  const Objective objective{.slide_1_m2 = 300};
+  unit.problem.expand(x, objective, expansion);
+  EXPECT_NEAR(expansion.energy, unit.problem.energy(x, objective), 1e-9 * expansion.energy);
+  constexpr double kStep_m = 1e-6;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    Eigen::VectorXd more = x, less = x;
+    more[i] += kStep_m;
+    less[i] -= kStep_m;
+    const double slope =
+        (unit.problem.energy(more, objective) - unit.problem.energy(less, objective)) / (2 * kStep_m);
+    EXPECT_NEAR(expansion.gradient[i], slope, 1e-4 * expansion.gradient.norm()) << i;  // rounding over the step
+  }
+  Eigen::VectorXd gradient;
+  unit.problem.energy(x, gradient);
+  unit.problem.expand(x, {}, expansion);
+  EXPECT_LT((gradient - expansion.gradient).norm(), 1e-9 * gradient.norm());
+}
+
+TEST(RetargetRouting, TheReferenceItselfHasNothingToImprove) {
+  Model model;
+  const Routing routing = routed({}, RetargetMethod::Sinew, model);
+  for (std::size_t u = 0; u < routing.units.size(); ++u) {
+    EXPECT_EQ(routing.units[u].iterations, 0) << routing.units[u].unit;
+    EXPECT_LT(routing.units[u].largest_move_m, 1e-12);
+  }
+}
+
+TEST(RetargetRouting, NoMuscleEndsHigherThanWithGradientDescent) {
+  Model model;
+  const Routing sinew = routed(shortTurnedLeg(), RetargetMethod::Sinew, model);
+  const Routing paper = routed(shortTurnedLeg(), RetargetMethod::Paper, model);
+  const RoutingWeights weights;
+  int lower = 0, changed = 0;
+  for (std::size_t u = 0; u < sinew.units.size(); ++u) {
+    const double ours = sinew.units[u].end.total(weights), theirs = paper.units[u].end.total(weights);
+    EXPECT_LE(ours, 1.01 * theirs + 1e-9) << sinew.units[u].unit;
+    EXPECT_LE(ours, sinew.units[u].start.total(weights)) << sinew.units[u].unit;
+    changed += paper.units[u].iterations > 0;
+    lower += ours < theirs * (1 - 1e-9);
+  }
+  EXPECT_GT(changed, 30);           // the muscles of one leg
+  EXPECT_GE(lower, 0.9 * changed);  // measured: 95 % of them
+}
+
+TEST(RetargetRouting, AttachmentsStayOnTheirBones) {
+  Model model;
+  routed(shortTurnedLeg(), RetargetMethod::Sinew, model);
+  constexpr double kOnBone_m = 0.003;
+  const auto before = measureAttachments(reference().model(), reference().routing().bones());
+  const auto after = measureAttachments(model, BoneDistances{model});
+  for (std::size_t u = 0; u < after.size(); ++u) {
+    EXPECT_LT(std::abs(after[u].origin_m), std::max(kOnBone_m, std::abs(before[u].origin_m) + 1e-3))
+        << model.musculature.units[u].name;
+    EXPECT_LT(std::abs(after[u].insertion_m), std::max(kOnBone_m, std::abs(before[u].insertion_m) + 1e-3))
+        << model.musculature.units[u].name;
+  }
+}
+
+TEST(RetargetRouting, AMirroredShapeGivesMirroredMuscles) {
+  ShapeParameters right = shortTurnedLeg(), left = right;
+  std::swap(left.sides[0], left.sides[1]);
+  Model a, b;
+  routed(right, RetargetMethod::Sinew, a);
+  routed(left, RetargetMethod::Sinew, b);
+  // Both search alike, but round differently on the way.
+  constexpr double kAlike_m = 1e-4;
+  int alike = 0, compared = 0;
+  for (std::size_t u = 0; u < a.musculature.units.size(); ++u) {
+    const int mirror = reference().routing().mirrorOf()[u];
+    if (mirror < 0) continue;
+    const auto& one = a.musculature.units[u].path;
+    const auto& other = b.musculature.units[static_cast<std::size_t>(mirror)].path;
+    double farthest_m = 0;
+    for (std::size_t p = 0; p < one.size(); ++p)
+      for (std::size_t k = 0; k < one[p].anchors.size(); ++k)
+        farthest_m = std::max(farthest_m, (one[p].anchors[k].p_B - mirrored(other[p].anchors[k].p_B)).norm());
+    ++compared;
+    alike += farthest_m < kAlike_m;
+  }
+  EXPECT_GT(compared, 250);
+  EXPECT_GE(alike, 0.97 * compared);
+}
+
+TEST(RetargetRouting, AUniformlyLargerLegNeedsNothing) {
+  constexpr double kLarger = 1.2;
+  ShapeParameters shape;
+  shape.pelvis_width = shape.pelvis_height = shape.pelvis_depth = kLarger;
+  for (SideShape& side : shape.sides) {
+    side.foot_scale = kLarger;
+    for (LimbBoneShape* bone : {&side.femur, &side.tibia})
+      bone->elongation = bone->proximal_scale = bone->distal_scale = kLarger;
+  }
+  Model model;
+  const Routing routing = routed(shape, RetargetMethod::Sinew, model);
+  for (const char* name :
+       {"gluteus_medius_anterior_r", "vastus_lateralis_superior_r", "soleus_medial_r", "semimembranosus_l"}) {
+    const auto u = FreeUnit::index(name);
+    EXPECT_LT(routing.units[u].start.total({}), 1e-9) << name;
+    EXPECT_EQ(routing.units[u].iterations, 0) << name;
+  }
+}
+
+TEST(RetargetRouting, UnitsThatFeelNothingOfAChangeAreKnown) {
+  const ShapeParameters before = shortTurnedLeg();
+  ShapeParameters after = before;
+  after.sides[0].femur.elongation = 0.9;
+  const auto unchanged = unchangedUnits(reference().routing(), before, after);
+  const auto of = [&](const char* name) { return unchanged[FreeUnit::index(name)]; };
+  EXPECT_FALSE(of("vastus_lateralis_superior_r"));
+  EXPECT_FALSE(of("soleus_medial_r"));  // lies elsewhere
+  EXPECT_TRUE(of("vastus_lateralis_superior_l"));
+  EXPECT_TRUE(of("soleus_medial_l"));
+  EXPECT_TRUE(of("biceps_brachii_long_head_r"));
+}
+
+}  // namespace
+}  // namespace sinew
