@@ -243,7 +243,7 @@ Eigen::VectorXd boundedStep(const Eigen::VectorXd& x, const Eigen::VectorXd& gra
   while (!free.empty()) {
     const Eigen::MatrixXd H = hessian(free, free);
     // What is already held at a bound moved by a known amount.
-    Eigen::VectorXd g = gradient(free) + hessian(free, Eigen::placeholders::all) * (target - x);
+    Eigen::VectorXd g = gradient(free) + hessian(free, Eigen::all) * (target - x);
     g -= H * (target - x)(free);
     const Eigen::VectorXd step = -H.llt().solve(g);
     std::vector<int> inside;
