@@ -180,18 +180,50 @@ double UnitProblem::addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expan
     const double slide_price = points_[p].slides ? slide_1_m2 : 0;
     const Eigen::Matrix3d& basis = points_[p].basis_B;
     const Eigen::Vector3d step = x.segment<3>(at), moved = points_[p].moved_B + basis * step;
-    energy += price * moved.squaredNorm();
+    const double far = moved.squaredNorm() / (weights_.far_m * weights_.far_m);
+    energy += price * moved.squaredNorm() * (1 + far);
     slide += slide_price * step.squaredNorm();
     const Eigen::Vector3d slope = points_[p].basis_W.transpose() * points_[p].outward_W;
     const double beyond = slope.isZero(0) ? 0 : std::min(0.0, slope.dot(step) + points_[p].slack_m);
     energy += inside * beyond * beyond;
     if constexpr (kOrder != Order::Value)
       e.gradient.segment<3>(at) +=
-          2 * (price * (basis.transpose() * moved) + slide_price * step + inside * beyond * slope);
+          2 * (price * (1 + 2 * far) * (basis.transpose() * moved) + slide_price * step + inside * beyond * slope);
     if constexpr (kOrder == Order::Hessian) {
-      e.hessian.block<3, 3>(at, at) += 2 * price * (basis.transpose() * basis);
+      const Eigen::Vector3d along = basis.transpose() * moved;
+      e.hessian.block<3, 3>(at, at) += 2 * price * (1 + 2 * far) * (basis.transpose() * basis);
+      e.hessian.block<3, 3>(at, at) += 8 * price / (weights_.far_m * weights_.far_m) * (along * along.transpose());
       e.hessian.block<3, 3>(at, at).diagonal().array() += 2 * slide_price;
       if (beyond < 0) e.hessian.block<3, 3>(at, at) += 2 * inside * slope * slope.transpose();
+    }
+  }
+  return energy;
+}
+
+/// A piece that shrinks to nothing has any direction it likes: neighbouring points keep their distance.
+template <UnitProblem::Order kOrder>
+double UnitProblem::addCrowding(const Eigen::VectorXd& x, Expansion& e) const {
+  constexpr double kLeast = 0.25;     // of a piece's length
+  constexpr double kLeast_m = 0.001;  // what was shorter is no piece
+  double energy = 0;
+  for (std::size_t p = 0; p + 1 < points_.size(); ++p) {
+    const auto a = static_cast<Eigen::Index>(3 * p), b = a + 3;
+    const Eigen::Vector3d piece =
+        (zero_[p + 1].c + zero_[p + 1].D * x.segment<3>(b)) - (zero_[p].c + zero_[p].D * x.segment<3>(a));
+    const double length_m = std::max(piece.norm(), 1e-9), lacking = length_m / lengths_m_[p] - kLeast;
+    if (lengths_m_[p] < kLeast_m || lacking >= 0) continue;
+    energy += weights_.crowding * lacking * lacking;
+    if constexpr (kOrder != Order::Value) {
+      const Eigen::Vector3d direction = piece / (length_m * lengths_m_[p]);
+      const Eigen::Vector3d slope_a = -zero_[p].D.transpose() * direction,
+                            slope_b = zero_[p + 1].D.transpose() * direction;
+      e.gradient.segment<3>(a) += 2 * weights_.crowding * lacking * slope_a;
+      e.gradient.segment<3>(b) += 2 * weights_.crowding * lacking * slope_b;
+      if constexpr (kOrder == Order::Hessian) {
+        e.hessian.block<3, 3>(a, a) += 2 * weights_.crowding * slope_a * slope_a.transpose();
+        e.hessian.block<3, 3>(b, b) += 2 * weights_.crowding * slope_b * slope_b.transpose();
+        e.hessian.block<3, 3>(b, a) += 2 * weights_.crowding * slope_b * slope_a.transpose();
+      }
     }
   }
   return energy;
@@ -226,7 +258,7 @@ double UnitProblem::evaluate(const Eigen::VectorXd& x, Objective objective, Rout
   }
   addResiduals<kOrder>(e);
   double slide = 0;
-  parts.displacement = addPrices<kOrder>(x, objective.slide_1_m2, e, slide);
+  parts.displacement = addPrices<kOrder>(x, objective.slide_1_m2, e, slide) + addCrowding<kOrder>(x, e);
   return e.energy = parts.total(weights_) + slide;
 }
 

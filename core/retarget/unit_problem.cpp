@@ -17,6 +17,7 @@ UnitProblem::UnitProblem(const std::vector<std::vector<Anchor>>& anchors, const 
   for (const int motion : reference.motions)
     motion_weight_.push_back(motions[static_cast<std::size_t>(motion)].weight);
   moveTo(anchors, points);
+  for (std::size_t p = 0; p + 1 < zero_.size(); ++p) lengths_m_.push_back((zero_[p + 1].c - zero_[p].c).norm());
   length_slopes_.resize(unknowns(), kRoutingSamples);
   constexpr int kMostResiduals = 3 + 2 * kRoutingSamples;  // of a motion
   const auto most = static_cast<Eigen::Index>(motion_weight_.size()) * kMostResiduals;
@@ -27,6 +28,7 @@ UnitProblem::UnitProblem(const std::vector<std::vector<Anchor>>& anchors, const 
 
 void UnitProblem::moveTo(const std::vector<std::vector<Anchor>>& anchors, const std::vector<Point>& points) {
   points_ = points;
+  zero_.resize(points_.size());
   places_.resize(reference_->motions.size() * kRoutingSamples * points_.size());
   for (std::size_t p = 0; p < points_.size(); ++p) placePoint(p, anchors[p]);
 }
@@ -44,6 +46,9 @@ void UnitProblem::placePoint(std::size_t p, const std::vector<Anchor>& anchors) 
     basis_B[k] =
         anchors[k].weight *
         (poses_->atZero()[static_cast<std::size_t>(anchors[k].segment)].linear().transpose() * points_[p].basis_W);
+  zero_[p] = {Eigen::Vector3d::Zero(), points_[p].basis_W};
+  for (const Anchor& anchor : anchors)
+    zero_[p].c += anchor.weight * (poses_->atZero()[static_cast<std::size_t>(anchor.segment)] * anchor.p_B);
   Place* place = &places_[p];
   for (const int motion : reference_->motions)
     for (int s = 0; s < kRoutingSamples; ++s, place += points_.size()) {

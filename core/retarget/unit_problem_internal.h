@@ -92,13 +92,17 @@ class UnitProblem {
   void addResiduals(Expansion& e) const;
   template <Order kOrder>
   double addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expansion& e, double& slide) const;
+  template <Order kOrder>
+  double addCrowding(const Eigen::VectorXd& x, Expansion& e) const;
 
   const ReferenceCurves* reference_;
   const MotionPoses* poses_;
   RoutingWeights weights_;
   std::vector<Point> points_;
   std::vector<double> motion_weight_;
-  std::vector<Place> places_;  ///< [motion][sample][point]
+  std::vector<Place> places_;      ///< [motion][sample][point]
+  std::vector<Place> zero_;        ///< by point, at the zero posture
+  std::vector<double> lengths_m_;  ///< by piece, at the zero posture, where the problem began
   std::vector<RigidPiece> rigid_;
   std::vector<std::vector<MovingPiece>> moving_;  ///< by motion: the other pieces
   std::vector<bool> changes_length_;              ///< by motion: any of them
