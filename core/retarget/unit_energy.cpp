@@ -180,19 +180,20 @@ double UnitProblem::addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expan
     const double slide_price = points_[p].slides ? slide_1_m2 : 0;
     const Eigen::Matrix3d& basis = points_[p].basis_B;
     const Eigen::Vector3d step = x.segment<3>(at), moved = points_[p].moved_B + basis * step;
-    const double far = moved.squaredNorm() / (weights_.far_m * weights_.far_m);
-    energy += price * moved.squaredNorm() * (1 + far);
+    const double far = moved.squaredNorm() / (weights_.far_m * weights_.far_m), far2 = far * far;
+    energy += price * moved.squaredNorm() * (1 + far2);
     slide += slide_price * step.squaredNorm();
     const Eigen::Vector3d slope = points_[p].basis_W.transpose() * points_[p].outward_W;
     const double beyond = slope.isZero(0) ? 0 : std::min(0.0, slope.dot(step) + points_[p].slack_m);
     energy += inside * beyond * beyond;
     if constexpr (kOrder != Order::Value)
       e.gradient.segment<3>(at) +=
-          2 * (price * (1 + 2 * far) * (basis.transpose() * moved) + slide_price * step + inside * beyond * slope);
+          2 * (price * (1 + 3 * far2) * (basis.transpose() * moved) + slide_price * step + inside * beyond * slope);
     if constexpr (kOrder == Order::Hessian) {
       const Eigen::Vector3d along = basis.transpose() * moved;
-      e.hessian.block<3, 3>(at, at) += 2 * price * (1 + 2 * far) * (basis.transpose() * basis);
-      e.hessian.block<3, 3>(at, at) += 8 * price / (weights_.far_m * weights_.far_m) * (along * along.transpose());
+      e.hessian.block<3, 3>(at, at) += 2 * price * (1 + 3 * far2) * (basis.transpose() * basis);
+      e.hessian.block<3, 3>(at, at) +=
+          24 * price * far / (weights_.far_m * weights_.far_m) * (along * along.transpose());
       e.hessian.block<3, 3>(at, at).diagonal().array() += 2 * slide_price;
       if (beyond < 0) e.hessian.block<3, 3>(at, at) += 2 * inside * slope * slope.transpose();
     }
