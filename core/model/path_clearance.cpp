@@ -1,11 +1,10 @@
 #include "core/model/path_clearance.h"
 
 #include <algorithm>
-#include <atomic>
 #include <ranges>
-#include <thread>
 
 #include "core/muscle/muscle_path.h"
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
@@ -111,18 +110,11 @@ std::vector<PathPenetration> measurePenetration(const Model& model, const BoneDi
   }
   const auto& units = model.musculature.units;
   std::vector<PathPenetration> worst(units.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&](bool reports) {
-    for (std::size_t u = next++; u < units.size() && !job.cancelled(); u = next++) {
-      const PointProbe probe{bones, spannedSegments(model.skeleton, units[u])};
-      for (std::size_t k = 0; k < postures.size(); ++k)
-        probePath(units[u], probe, X_WB[k], X_BW[k], options.step_m, static_cast<int>(k), worst[u]);
-      if (reports) job.report(static_cast<double>(u) / static_cast<double>(units.size()), "path clearance");
-    }
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned t = 1; t < std::max(1u, std::thread::hardware_concurrency()); ++t) threads.emplace_back(work, false);
-  work(true);
+  forEachInParallel(units.size(), job, "path clearance", [&](std::size_t u) {
+    const PointProbe probe{bones, spannedSegments(model.skeleton, units[u])};
+    for (std::size_t k = 0; k < postures.size(); ++k)
+      probePath(units[u], probe, X_WB[k], X_BW[k], options.step_m, static_cast<int>(k), worst[u]);
+  });
   return worst;
 }
 
