@@ -7,13 +7,13 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
-#include <vtkTubeFilter.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "app/scene/palette.h"
 #include "app/scene/rom_patch.h"
+#include "app/scene/vtk_convert.h"
 
 namespace sinew {
 namespace {
@@ -26,17 +26,6 @@ void plain(vtkActor& actor, const Rgb& colour) {
   actor.GetProperty()->SetDiffuse(0.3);
   actor.PickableOff();
   actor.VisibilityOff();
-}
-
-void drawTube(vtkActor& actor, vtkPolyData* lines, double radius_m) {
-  vtkNew<vtkTubeFilter> tube;
-  tube->SetInputData(lines);
-  tube->SetRadius(radius_m);
-  tube->SetNumberOfSides(8);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(tube->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  actor.SetMapper(mapper);
 }
 
 void drawBall(vtkActor& actor, const Eigen::Vector3d& p, double radius_m) {

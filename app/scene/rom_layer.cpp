@@ -5,24 +5,12 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
-#include <vtkTubeFilter.h>
 
 #include "app/scene/rom_patch.h"
 #include "app/scene/vtk_convert.h"
 
 namespace sinew {
 namespace {
-
-void drawTube(vtkActor& actor, vtkPolyData* lines, double radius_m) {
-  vtkNew<vtkTubeFilter> tube;
-  tube->SetInputData(lines);
-  tube->SetRadius(radius_m);
-  tube->SetNumberOfSides(8);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(tube->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  actor.SetMapper(mapper);
-}
 
 void plain(vtkActor& actor, const Rgb& colour) {
   actor.GetProperty()->SetColor(colour.r, colour.g, colour.b);

@@ -2,8 +2,11 @@
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkTubeFilter.h>
 
 namespace sinew {
 
@@ -34,6 +37,17 @@ vtkSmartPointer<vtkMatrix4x4> toMatrix(const RigidTransform& X) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 4; ++j) matrix->SetElement(i, j, X(i, j));
   return matrix;
+}
+
+void drawTube(vtkActor& actor, vtkPolyData* lines, double radius_m) {
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputData(lines);
+  tube->SetRadius(radius_m);
+  tube->SetNumberOfSides(8);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(tube->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  actor.SetMapper(mapper);
 }
 
 }  // namespace sinew

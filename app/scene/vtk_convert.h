@@ -1,4 +1,5 @@
 #pragma once
+#include <vtkActor.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -12,5 +13,8 @@ namespace sinew {
 vtkSmartPointer<vtkPolyData> toPolyData(const TriangleMesh& mesh);
 
 vtkSmartPointer<vtkMatrix4x4> toMatrix(const RigidTransform& X);
+
+/// `actor` shows these lines as tubes.
+void drawTube(vtkActor& actor, vtkPolyData* lines, double radius_m);
 
 }  // namespace sinew
