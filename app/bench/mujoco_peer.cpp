@@ -109,6 +109,13 @@ Eigen::Vector3d MujocoPeer::p_WB(int segment) const {
   return Eigen::Map<const Eigen::Vector3d>(impl_->d->xpos + 3 * id);
 }
 
+double MujocoPeer::passiveForce_N(int unit) {
+  mju_zero(impl_->d->act, impl_->m->na);
+  mju_zero(impl_->d->qvel, impl_->m->nv);
+  mj_forward(impl_->m.get(), impl_->d.get());
+  return -impl_->d->actuator_force[unit];
+}
+
 bool MujocoPeer::simulate(int steps) {
   for (int i = 0; i < steps; ++i) mj_step(impl_->m.get(), impl_->d.get());
   const mjWarningStat* w = impl_->d->warning;

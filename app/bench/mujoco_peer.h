@@ -21,6 +21,8 @@ class MujocoPeer {
   void lengthsAndGradients();
   double length_m(int unit) const;
   Eigen::Vector3d p_WB(int segment) const;  ///< origin of a segment
+  /// What the unit's muscle pulls with at rest in this posture, fully relaxed (mj_forward).
+  double passiveForce_N(int unit);
   /// Lets it run. @returns false if MuJoCo warned of a state that is not finite.
   bool simulate(int steps);
 

@@ -196,16 +196,23 @@ class MjcfWriter {
     text_ += "  </tendon>\n";
   }
 
-  /// MuJoCo finds l0 and tendon slack from two pairs of fibre and unit lengths.
+  /// MuJoCo finds l0 and tendon slack from two pairs of fibre and unit lengths. Its active curve is two parabolas
+  /// that pass one half midway between 1 and `lmin` or `lmax`; its passive one is quadratic to the middle between 1
+  /// and `lmax` and straight beyond, where it reaches 1.5 `fpmax` at `lmax`.
   void actuators() {
-    constexpr double kShort = 0.5, kLong = 1.6;
+    constexpr double kShort = 0.5;
     text_ += "  <actuator>\n";
     for (const auto& unit : units_) {
       const double l0 = unit.optimal_fiber_length_m, slack = unit.tendon_slack_length_m;
+      const HillParameters& hill = unit.curves;
+      const double longest = 1 + hill.passive_strain;
+      const double half_width = std::sqrt(hill.active_width * std::numbers::ln2);  // of the Gaussian, at one half
       text_ += "    <muscle name=\"" + escaped(unit.name) + "\" tendon=\"" + escaped(unit.name) + "\" force=\"" +
                number(unit.max_isometric_force_N * std::cos(unit.pennation_angle_at_optimal_rad)) + "\" range=\"" +
-               number(kShort) + " " + number(kLong) + "\" lengthrange=\"" + number(slack + kShort * l0) + " " +
-               number(slack + kLong * l0) + "\"/>\n";
+               number(kShort) + " " + number(longest) + "\" lengthrange=\"" + number(slack + kShort * l0) + " " +
+               number(slack + longest * l0) + "\" lmin=\"" + number(std::max(0.0, 1 - 2 * half_width)) +
+               "\" lmax=\"" + number(longest) + "\" vmax=\"" + number(hill.max_velocity_1_s) + "\" fpmax=\"" +
+               number(2.0 / 3) + "\" fvmax=\"" + number(hill.max_lengthening) + "\"/>\n";
     }
     text_ += "  </actuator>\n";
   }

@@ -17,7 +17,9 @@ namespace sinew {
 /// - the wrist ball is pronation (ulna to radius) and two hinges (radius to hand). The hand is exact; the radius
 ///   turns by the clinical pronation instead of the wrist's twist, the same while flexion or deviation is zero;
 /// - a ball joint's limit is one cone: the largest turn in the athlete envelope;
-/// - MuJoCo's muscle has no pennation and a rigid tendon: force F_max cos(pennation), fibre range 0.5-1.6 l0.
+/// - MuJoCo's muscle has no pennation and a rigid tendon: force F_max cos(pennation). Its curves are others than
+///   Thelen's; they take the unit's passive strain, fastest shortening and lengthening force, and lose half of the
+///   active force where ours does on the short side.
 std::string mjcfText(const Model& model);
 
 }  // namespace sinew

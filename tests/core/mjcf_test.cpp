@@ -152,6 +152,29 @@ TEST(MjcfInMujoco, AllLengthsAgreeAtTheZeroPosture) {
     EXPECT_NEAR(mujoco->length_m(int(u)), pathLength(reference().musculature.units[u], X_WB), 1e-9);
 }
 
+TEST(MjcfInMujoco, PassiveForceIsTheGreatestAtTheEditedPassiveStrain) {
+  // With its passive strain edited to what the fibre is stretched by when standing, a unit pulls with F_max there.
+  Model model = reference();
+  const auto X_WB = segmentPoses(model.skeleton, zeroPosture(model.skeleton));
+  std::vector<int> stretched;
+  for (std::size_t i = 0; i < model.musculature.units.size(); ++i) {
+    MusculotendonUnit& unit = model.musculature.units[i];
+    const double strain = (pathLength(unit, X_WB) - unit.tendon_slack_length_m) / unit.optimal_fiber_length_m - 1;
+    if (strain < 0.05) continue;
+    unit.curves.passive_strain = strain;
+    stretched.push_back(static_cast<int>(i));
+  }
+  ASSERT_GT(stretched.size(), 10u);
+  const auto mujoco = MujocoPeer::make(model);
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  mujoco->setPositions(mujoco->positions(zeroPosture(model.skeleton)));
+  for (const int i : stretched) {
+    const MusculotendonUnit& unit = model.musculature.units[std::size_t(i)];
+    const double expected_N = unit.max_isometric_force_N * std::cos(unit.pennation_angle_at_optimal_rad);
+    EXPECT_NEAR(mujoco->passiveForce_N(i), expected_N, 1e-6 * expected_N) << unit.name;  // 12 digits in the file
+  }
+}
+
 TEST(MjcfInMujoco, TheBodyFallsWithoutBreaking) {
   const auto mujoco = MujocoPeer::make(reference());
   if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
