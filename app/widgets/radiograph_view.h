@@ -97,6 +97,8 @@ class RadiographView : public QWidget {
   void setZoomAt(double zoom, const QPointF& widget_point);
   const MarkOverlay* markAt(const QPointF& widget_point) const;
   const QImage& levelImage(int level);
+  void paintLines(QPainter& painter, const QRectF& film) const;
+  void paintEdges(QPainter& painter) const;
   void paintMarks(QPainter& painter) const;
   void paintLoupe(QPainter& painter);
   void paintScaleBar(QPainter& painter) const;
