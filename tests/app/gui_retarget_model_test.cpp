@@ -223,6 +223,22 @@ TEST_F(BodySolverTest, TheNewestDesignWins) {
   ASSERT_TRUE(waitUntil([&] { return solver.naive()->shape == longThighs(1.4).body.shape; }, kLimit_ms));
 }
 
+TEST_F(BodySolverTest, ABodyIsTheSameByWayOfAnother) {
+  load();
+  for (const double e : {0.8, 1.3}) {
+    solver.solve(longThighs(e));
+    ASSERT_TRUE(waitUntil([&] { return solver.isCurrent(); }, kLimit_ms));
+  }
+  const Model at_once = retarget(*solver.reference(), longThighs(1.3).body.shape).model;
+  for (std::size_t u = 0; u < at_once.musculature.units.size(); ++u) {
+    const auto &unit = solver.body()->model->musculature.units[u], &expected = at_once.musculature.units[u];
+    EXPECT_EQ(unit.optimal_fiber_length_m, expected.optimal_fiber_length_m);
+    EXPECT_EQ(unit.tendon_slack_length_m, expected.tendon_slack_length_m);
+    for (std::size_t p = 0; p < unit.path.size(); ++p)
+      EXPECT_EQ(unit.path[p].anchors.front().p_B, expected.path[p].anchors.front().p_B);
+  }
+}
+
 TEST_F(BodySolverTest, AFailureIsToldAndTheNextDesignGoesOn) {
   load();
   RetargetDesign thin = longThighs(0.2);  // shorter than its heads: no bone

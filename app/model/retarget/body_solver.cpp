@@ -30,7 +30,7 @@ struct BodySolver::Memory {
   std::shared_ptr<const RetargetReference> reference;
   std::optional<ShapeParameters> shape;
   std::shared_ptr<const Model> plain_naive, plain_model;  ///< before masses and strengths
-  Retargeted retargeted;
+  Retargeted retargeted;  ///< the next shape takes over from it what it does not touch
   std::vector<MuscleChange> changes;
   std::optional<PhysicsFactors> physics;
   std::shared_ptr<const Model> naive, base;
@@ -38,13 +38,14 @@ struct BodySolver::Memory {
 
   bool retargetTo(const ShapeParameters& wanted, const Job& job) {
     if (shape == wanted) return true;
-    Retargeted next = retarget(*reference, wanted, {}, job);
+    Retargeted next =
+        shape ? retarget(*reference, wanted, {}, job, retargeted) : retarget(*reference, wanted, {}, job);
     if (next.outcome != Outcome::Converged) return false;
     shape = wanted;
     physics.reset();
     plain_naive = std::make_shared<const Model>(deformedModel(reference->model(), wanted));
     changes = muscleChanges(*reference, *plain_naive, next);
-    plain_model = std::make_shared<const Model>(std::exchange(next.model, Model{}));
+    plain_model = std::make_shared<const Model>(next.model);
     retargeted = std::move(next);
     return true;
   }
@@ -159,7 +160,6 @@ void BodySolver::solve(const RetargetDesign& design) {
         body->design = design;
         body->naive = memory->naive;
         body->base = body->model = memory->base;
-        body->retargeted = memory->retargeted;
         body->changes = memory->changes;
         if (body->rom) {
           body->model = std::make_shared<const Model>(std::exchange(body->rom->model, Model{}));

@@ -20,7 +20,6 @@ struct SolvedBody {
   std::shared_ptr<const Model> naive;  ///< muscles moved with their bones, with the design's masses and strengths
   std::shared_ptr<const Model> base;   ///< retargeted, ranges of motion not edited yet
   std::shared_ptr<const Model> model;  ///< and with these edits: what is saved
-  Retargeted retargeted;               ///< its model is left empty
   std::vector<MuscleChange> changes;   ///< by unit
   std::optional<RomEditResult> rom;    ///< its model is left empty; nullopt without edits, or if they fail
   QString rom_problem;                 ///< why the edits fail
