@@ -26,6 +26,8 @@ namespace {
 
 constexpr GLenum kColorAttachment0 = 0x8CE0;
 constexpr unsigned kLessOrEqual = 0x0203;
+constexpr int kSmoothSamples = 4;  // of a pixel; a processor needs twice the time for them
+constexpr int kStill_ms = 250;     // without a request, after which the picture is drawn smooth
 
 /// VTK's generic interactor has no timers of its own: these are Qt's. Its Render() only asks for a repaint.
 class QtInteractor : public vtkGenericRenderWindowInteractor {
@@ -96,7 +98,7 @@ VtkView::VtkView(QWidget* parent) : QOpenGLWidget{parent} {
   window_->SetFrameBlitModeToNoBlit();  // copyToWidget() does it
   window_->SetReadyForRendering(false);
   window_->SetOwnContext(0);
-  window_->SetMultiSamples(4);
+  window_->SetMultiSamples(kSmoothSamples);
   renderer_ = vtkSmartPointer<vtkRenderer>::New();
   window_->AddRenderer(renderer_);
   interactor_ = vtkSmartPointer<QtInteractor>::New();
@@ -105,6 +107,14 @@ VtkView::VtkView(QWidget* parent) : QOpenGLWidget{parent} {
   interactor_->SetInteractorStyle(style);
   interactor_->Initialize();
   observeWindow();
+  still_ = new QTimer{this};
+  still_->setSingleShot(true);
+  still_->setInterval(kStill_ms);
+  connect(still_, &QTimer::timeout, this, [this] {
+    if (smooth_) return;
+    smooth_ = dirty_ = true;
+    update();
+  });
 }
 
 void VtkView::observeWindow() {
@@ -174,6 +184,8 @@ vtkRenderer& VtkView::renderer() {
 
 void VtkView::requestRender() {
   dirty_ = true;
+  smooth_ = !drawn_by_processor_ || !still_->isActive();
+  still_->start();
   update();
 }
 
@@ -183,6 +195,8 @@ void VtkView::initializeGL() {
   window_->SetReadyForRendering(true);
   window_->SetMapped(1);
   window_->SetIsCurrent(true);
+  const auto* name = reinterpret_cast<const char*>(context()->functions()->glGetString(GL_RENDERER));
+  drawn_by_processor_ = name && QByteArrayView{name}.contains("llvmpipe");
   auto* state = window_->GetState();
   state->Reset();
   state->vtkglDepthFunc(kLessOrEqual);
@@ -221,8 +235,10 @@ void VtkView::paintGL() {
   state->vtkglDepthFunc(kLessOrEqual);
   if (dirty_) {
     dirty_ = false;
+    window_->SetMultiSamples(smooth_ ? kSmoothSamples : 0);
     window_->Render();
     ++render_count_;
+    if (!smooth_) still_->start();
   }
   copyToWidget();
   state->Pop();

@@ -5,6 +5,7 @@
 #include <QSurfaceFormat>
 #include <array>
 
+class QTimer;
 class vtkCamera;
 class vtkGenericOpenGLRenderWindow;
 class vtkRenderer;
@@ -13,7 +14,8 @@ class vtkRenderWindowInteractor;
 namespace sinew {
 
 /// VTK inside a Qt 6 window: a vtkGenericOpenGLRenderWindow that draws with this widget's OpenGL context. Left drag
-/// turns, middle or Shift + left drag moves, wheel zooms. Needs a platform with OpenGL: not "offscreen".
+/// turns, middle or Shift + left drag moves, wheel zooms. Needs a platform with OpenGL: not "offscreen". Where a
+/// processor draws, pictures that follow each other closely have rough edges; the last of them is drawn smooth.
 class VtkView : public QOpenGLWidget {
   Q_OBJECT
  public:
@@ -25,6 +27,7 @@ class VtkView : public QOpenGLWidget {
 
   vtkRenderer& renderer();
   void requestRender();
+  bool isSmooth() const { return smooth_; }  ///< the picture shown has smooth edges
   /// Both views look from the same place from now on: turning one turns the other.
   void shareCameraWith(VtkView& other);
   int renderCount() const { return render_count_; }
@@ -56,7 +59,8 @@ class VtkView : public QOpenGLWidget {
   unsigned long camera_tag_ = 0;
   std::array<double, 7> seen_from_{};
   QPointF press_;
-  bool dirty_ = true, painting_ = false;
+  QTimer* still_;  ///< runs while pictures follow each other
+  bool dirty_ = true, painting_ = false, drawn_by_processor_ = false, smooth_ = true;
   int render_count_ = 0, wheel_rest_ = 0;
 };
 

@@ -333,6 +333,25 @@ TEST_F(RetargetTour, ACancelledSolutionLeavesTheNaiveMuscles) {
   settle();
 }
 
+TEST_F(RetargetTour, ThePictureIsSmoothAgainAfterADrag) {
+  auto& canvas = find<VtkView>("retarget_view_canvas");
+  auto& slider = find<RangeSlider>("slider_femur_r_elongation");
+  ASSERT_TRUE(waitUntil([&] { return canvas.isSmooth(); }, kLimit_ms));
+  letEventsRun(500);
+  const QImage before = canvas.grabFramebuffer();
+  const int start = slider.value();
+  slider.setSliderDown(true);
+  for (const int value : {start + 20, start + 40, start + 20, start}) {
+    slider.setValue(value);
+    letEventsRun(30);
+  }
+  slider.setSliderDown(false);
+  settle();
+  ASSERT_TRUE(waitUntil([&] { return canvas.isSmooth(); }, kLimit_ms));
+  letEventsRun(500);
+  EXPECT_EQ(canvas.grabFramebuffer(), before);
+}
+
 /// Not limits: figures to read.
 TEST_F(RetargetTour, PrintsTheTimesOfADragAndOfASolution) {
   auto& canvas = find<VtkView>("retarget_view_canvas");
