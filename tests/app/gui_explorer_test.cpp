@@ -1,12 +1,8 @@
 // The model explorer by hand, with mouse and keyboard, on a real OpenGL window (run under a virtual X server). Leaves
 // a screenshot of every state in SINEW_SCREENSHOT_DIR.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <QAbstractButton>
 #include <QApplication>
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
@@ -14,67 +10,39 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSlider>
-#include <QSurfaceFormat>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTest>
 #include <algorithm>
-#include <ctime>
 #include <numbers>
 
-#include "app/model/workspace.h"
 #include "app/widgets/explorer/explorer_page.h"
 #include "app/widgets/explorer/range_slider.h"
-#include "app/widgets/main_window.h"
 #include "app/widgets/model_view.h"
-#include "app/widgets/theme.h"
 #include "app/widgets/vtk_view.h"
-#include "gui_support.h"
 #include "tests/support/resources.h"
+#include "window_tour.h"
 
 namespace sinew {
 namespace {
 
 using test::letEventsRun;
+using test::threadTime_ms;
 using test::waitUntil;
 using ::testing::HasSubstr;
 
 constexpr int kLimit_ms = 120'000;  // a loaded machine with a software renderer
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Processor time of this thread: what a loaded machine does not change.
-double threadTime_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
-
-class ExplorerTour : public ::testing::Test {
+class ExplorerTour : public test::WindowTour {
  protected:
-  ExplorerTour() : workspace_{test::resourceDir(), {}}, window_{workspace_, {}} {
-    window_.resize(1280, 800);
-    window_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
-    QApplication::setActiveWindow(&window_);  // there is no window manager to do it
-    QObject::connect(&workspace_, &Workspace::problem, [this](const QString& message) { problems_ << message; });
+  ExplorerTour() {
     click("welcome_explorer");
     EXPECT_TRUE(waitUntil([&] { return explorer().model() != nullptr; }, kLimit_ms));
     letEventsRun(300);
   }
-  ~ExplorerTour() override { EXPECT_THAT(problems_, ::testing::IsEmpty()) << problems_.join("; ").toStdString(); }
 
-  template <class T>
-  T& find(const QString& object_name) {
-    auto* found = window_.findChild<T*>(object_name);
-    if (!found) throw std::runtime_error{"no control " + object_name.toStdString()};
-    return *found;
-  }
   Explorer& explorer() { return find<ExplorerPage>("explorer_page").explorer(); }
-  void click(const QString& object_name) {
-    auto& button = find<QAbstractButton>(object_name);
-    EXPECT_TRUE(button.isVisible() && button.isEnabled()) << object_name.toStdString();
-    QTest::mouseClick(&button, Qt::LeftButton, {}, button.rect().center());
-  }
   void choose(const QString& object_name, int index) {
     auto& combo = find<QComboBox>(object_name);
     combo.setCurrentIndex(index);
@@ -88,27 +56,11 @@ class ExplorerTour : public ::testing::Test {
     ASSERT_TRUE(waitUntil([&] { return explorer().rangesAreCurrent(); }, kLimit_ms));
     letEventsRun(100);
   }
-  void screenshot(const QString& name) {
-    const QDir folder{SINEW_SCREENSHOT_DIR};
-    folder.mkpath(".");
-    std::vector<QSize> sizes{{1280, 800}};
-    if (qEnvironmentVariableIsSet("SINEW_ALL_SIZES")) sizes.push_back({1600, 1000});
-    for (const QSize size : sizes) {
-      window_.resize(size);
-      letEventsRun(200);
-      ASSERT_TRUE(window_.grab().save(
-          folder.filePath(QString{"explorer-%1-%2x%3.png"}.arg(name).arg(size.width()).arg(size.height()))));
-    }
-    window_.resize(1280, 800);
-    letEventsRun(50);
-  }
   double degrees(const char* coordinate) {
     return explorer().clinical()[explorer().model()->skeleton.coordinateIndex(coordinate)] / kDegree;
   }
 
-  Workspace workspace_;
-  MainWindow window_;
-  QStringList problems_;
+  void screenshot(const QString& name) { WindowTour::screenshot("explorer-" + name, test::usualSizes()); }
 };
 
 TEST_F(ExplorerTour, FindsAMuscleAndShowsItsCardAndCurves) {
@@ -247,12 +199,3 @@ TEST_F(ExplorerTour, PrintsTheTimeOfAFrame) {
 
 }  // namespace
 }  // namespace sinew
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleMock(&argc, argv);
-  QSurfaceFormat::setDefaultFormat(sinew::VtkView::defaultFormat());
-  QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-  QApplication application{argc, argv};
-  sinew::installTheme(application, sinew::test::resourceDir());
-  return RUN_ALL_TESTS();
-}

@@ -1,19 +1,14 @@
 // The retargeting workspace by hand, with mouse and keyboard, on a real OpenGL window (run under a virtual X server).
 // Leaves a screenshot of every state in SINEW_SCREENSHOT_DIR.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSurfaceFormat>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTableWidget>
@@ -21,12 +16,9 @@
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
-#include <ctime>
 
 #include "app/model/retarget/rom_handles.h"
-#include "app/model/workspace.h"
 #include "app/widgets/explorer/range_slider.h"
-#include "app/widgets/main_window.h"
 #include "app/widgets/model_view.h"
 #include "app/widgets/retarget/body_view.h"
 #include "app/widgets/retarget/change_table.h"
@@ -36,27 +28,20 @@
 #include "app/widgets/retarget/retarget_page.h"
 #include "app/widgets/retarget/rom_edit_panel.h"
 #include "app/widgets/retarget/rom_edit_view.h"
-#include "app/widgets/theme.h"
 #include "app/widgets/vtk_view.h"
-#include "gui_support.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
+#include "window_tour.h"
 
 namespace sinew {
 namespace {
 
 using test::letEventsRun;
+using test::threadTime_ms;
 using test::waitUntil;
 using ::testing::HasSubstr;
 
 constexpr int kLimit_ms = 180'000;  // a loaded machine with a software renderer
-
-/// Processor time of this thread: what a loaded machine does not change.
-double threadTime_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
 
 /// The reference takes seconds to prepare: once for all tests.
 std::shared_ptr<const RetargetReference> sharedReference() {
@@ -64,34 +49,17 @@ std::shared_ptr<const RetargetReference> sharedReference() {
   return reference;
 }
 
-class RetargetTour : public ::testing::Test {
+class RetargetTour : public test::WindowTour {
  protected:
-  RetargetTour() : workspace_{test::resourceDir(), {}}, window_{workspace_, {}} {
-    window_.resize(1280, 800);
-    window_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
-    QApplication::setActiveWindow(&window_);  // there is no window manager to do it
-    QObject::connect(&workspace_, &Workspace::problem, [this](const QString& message) { problems_ << message; });
+  RetargetTour() {
     page().solver().load(sharedReference);
     click("welcome_retarget");
     settle();
     letEventsRun(200);
   }
-  ~RetargetTour() override { EXPECT_THAT(problems_, ::testing::IsEmpty()) << problems_.join("; ").toStdString(); }
 
-  template <class T>
-  T& find(const QString& object_name) {
-    auto* found = window_.findChild<T*>(object_name);
-    if (!found) throw std::runtime_error{"no control " + object_name.toStdString()};
-    return *found;
-  }
   RetargetPage& page() { return find<RetargetPage>("retarget_page"); }
   const RetargetDesign& design() { return page().document().current(); }
-  void click(const QString& object_name) {
-    auto& button = find<QAbstractButton>(object_name);
-    EXPECT_TRUE(button.isVisible() && button.isEnabled()) << object_name.toStdString();
-    QTest::mouseClick(&button, Qt::LeftButton, {}, button.rect().center());
-  }
   void trigger(const QString& action) { find<QAction>(action).trigger(); }
   void settle() {
     ASSERT_TRUE(waitUntil(
@@ -99,14 +67,6 @@ class RetargetTour : public ::testing::Test {
         kLimit_ms))
         << page().solver().problem().toStdString();
     letEventsRun(150);
-  }
-  void answerFileDialog(const std::filesystem::path& path) {
-    QTimer::singleShot(300, [path] {
-      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
-      dialog->findChild<QLineEdit*>("fileNameEdit")->setText(QString::fromStdString(path.string()));
-      QMetaObject::invokeMethod(dialog, "accept");
-    });
   }
   void drag(QWidget& widget, const QPoint& from, const QPoint& to, int steps = 6) {
     QTest::mousePress(&widget, Qt::LeftButton, {}, from);
@@ -122,25 +82,9 @@ class RetargetTour : public ::testing::Test {
     }
     QTest::mouseRelease(&widget, Qt::LeftButton, {}, to);
   }
-  void screenshot(const QString& name) {
-    const QDir folder{SINEW_SCREENSHOT_DIR};
-    folder.mkpath(".");
-    std::vector<QSize> sizes{{1280, 800}};
-    if (qEnvironmentVariableIsSet("SINEW_ALL_SIZES")) sizes.push_back({1600, 1000});
-    for (const QSize size : sizes) {
-      window_.resize(size);
-      letEventsRun(250);
-      ASSERT_TRUE(window_.grab().save(
-          folder.filePath(QString{"retarget-%1-%2x%3.png"}.arg(name).arg(size.width()).arg(size.height()))));
-    }
-    window_.resize(1280, 800);
-    letEventsRun(60);
-  }
 
   test::TemporaryFolder folder_;
-  Workspace workspace_;
-  MainWindow window_;
-  QStringList problems_;
+  void screenshot(const QString& name) { WindowTour::screenshot("retarget-" + name, test::usualSizes()); }
 };
 
 TEST_F(RetargetTour, PresetsAreRetargetedRankedAndCompared) {
@@ -396,13 +340,3 @@ TEST_F(RetargetTour, PrintsTheTimesOfADragAndOfASolution) {
 
 }  // namespace
 }  // namespace sinew
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleMock(&argc, argv);
-  QSurfaceFormat::setDefaultFormat(sinew::VtkView::defaultFormat());
-  QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
-  QApplication application{argc, argv};
-  sinew::installTheme(application, sinew::test::resourceDir());
-  return RUN_ALL_TESTS();
-}

@@ -1,16 +1,11 @@
 // The whole demo case by hand, with mouse and keyboard, on a real OpenGL window (run under a virtual X server).
 // Leaves a screenshot of every stage in SINEW_SCREENSHOT_DIR.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <QAbstractButton>
 #include <QApplication>
-#include <QDir>
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
-#include <QSurfaceFormat>
 #include <QTableWidget>
 #include <QTest>
 #include <QTimer>
@@ -20,18 +15,15 @@
 
 #include "app/model/case_actions.h"
 #include "app/model/stage_text.h"
-#include "app/model/workspace.h"
-#include "app/widgets/main_window.h"
 #include "app/widgets/model_view.h"
 #include "app/widgets/radiograph_view.h"
 #include "app/widgets/report_pages.h"
-#include "app/widgets/theme.h"
 #include "app/widgets/vtk_view.h"
 #include "clinical/case_io.h"
 #include "core/file.h"
-#include "gui_support.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
+#include "window_tour.h"
 
 namespace sinew {
 namespace {
@@ -41,28 +33,10 @@ using test::waitUntil;
 
 constexpr int kStageLimit_ms = 240'000;  // a loaded machine with a software renderer
 
-class Tour : public ::testing::Test {
+class Tour : public test::WindowTour {
  protected:
-  Tour() : workspace_{test::resourceDir(), printReport}, window_{workspace_, renderReportPages} {
-    window_.resize(1280, 800);
-    window_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
-    QApplication::setActiveWindow(&window_);  // there is no window manager to do it
-    QObject::connect(&workspace_, &Workspace::problem, [this](const QString& message) { problems_ << message; });
-  }
+  Tour() : WindowTour{printReport, renderReportPages} {}
 
-  template <class T>
-  T& find(const QString& object_name) {
-    const auto all = window_.findChildren<T*>(object_name);  // radiographs of several pages share their names
-    const auto found = std::ranges::find_if(all, [](const T* control) { return control->isVisible(); });
-    if (all.isEmpty()) throw std::runtime_error{"no control " + object_name.toStdString()};
-    return found == all.end() ? *all.front() : **found;
-  }
-  void click(const QString& object_name) {
-    auto& button = find<QAbstractButton>(object_name);
-    EXPECT_TRUE(button.isVisible() && button.isEnabled()) << object_name.toStdString();
-    QTest::mouseClick(&button, Qt::LeftButton, {}, button.rect().center());
-  }
   void type(const QString& object_name, const QString& text) {
     auto& edit = find<QLineEdit>(object_name);
     QTest::mouseClick(&edit, Qt::LeftButton);
@@ -71,31 +45,9 @@ class Tour : public ::testing::Test {
     QTest::keyClicks(&edit, text);
     QTest::keyClick(&edit, Qt::Key_Return);
   }
-  /// Answers the next file dialog with a path, as a person who types it.
-  void answerFileDialog(const std::filesystem::path& path) {
-    QTimer::singleShot(300, [path] {
-      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
-      auto* edit = dialog->findChild<QLineEdit*>("fileNameEdit");
-      edit->setText(QString::fromStdString(path.string()));
-      QMetaObject::invokeMethod(dialog, "accept");
-    });
-  }
   void pressKeys(Qt::Key key, Qt::KeyboardModifiers modifiers) {
     QApplication::setActiveWindow(&window_);  // there is no window manager to give it back after a dialog
     QTest::keyClick(&window_, key, modifiers);
-  }
-  void screenshot(const QString& name) {
-    const QDir folder{SINEW_SCREENSHOT_DIR};
-    folder.mkpath(".");
-    for (const QSize size : {QSize{1280, 800}, QSize{1920, 1080}}) {
-      window_.resize(size);
-      letEventsRun(250);
-      ASSERT_TRUE(window_.grab().save(
-          folder.filePath(QString{"%1-%2x%3.png"}.arg(name).arg(size.width()).arg(size.height()))));
-    }
-    window_.resize(1280, 800);
-    letEventsRun(150);
   }
   void goTo(Stage stage) {
     click("stage_" + QString::fromStdString(nameOf(stage)));
@@ -136,9 +88,7 @@ class Tour : public ::testing::Test {
   const Case& current() { return workspace_.document().current(); }
 
   test::TemporaryFolder folder_;
-  Workspace workspace_;
-  MainWindow window_;
-  QStringList problems_;
+  void screenshot(const QString& name) { WindowTour::screenshot(name, {{1280, 800}, {1920, 1080}}); }
 
   void placeLandmarksByHand();
   void dragALandmarkAndTakeItBack();
@@ -293,13 +243,3 @@ TEST_F(Tour, NoQt5IsInTheProcess) {
 
 }  // namespace
 }  // namespace sinew
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleMock(&argc, argv);
-  QSurfaceFormat::setDefaultFormat(sinew::VtkView::defaultFormat());
-  QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
-  QApplication application{argc, argv};
-  sinew::installTheme(application, sinew::test::resourceDir());
-  return RUN_ALL_TESTS();
-}
