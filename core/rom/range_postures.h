@@ -11,8 +11,8 @@ namespace sinew {
 /// coordinates move at once inside the ellipsoids of their limits (normalPostures).
 std::vector<Posture> rangePostures(const Skeleton& skeleton, double step_deg = 10, int random_count = 200);
 
-/// Every coordinate of the joints alone, the others neutral, as far as the preset's ranges and couplings let it go,
-/// in steps of at most `step_deg`; the zero posture first.
+/// Every coordinate of the joints through the preset's range in steps of at most `step_deg`, the others neutral
+/// unless a coupling takes one of them along; the zero posture first.
 std::vector<Posture> singleMotions(const Skeleton& skeleton, const RomPreset& preset, double step_deg = 10);
 
 }  // namespace sinew
