@@ -99,8 +99,8 @@ TEST(PathClearance, AttachmentsAreMeasuredFromTheSurfaceOfTheirSegment) {
   }
 }
 
-/// What is asked of the reference: ends within 3 mm of a bone, paths less than 2 mm inside in every posture that a body
-/// can take. Where bones run into one another no posture is, and no path outside both.
+/// What is asked of the reference: ends within 3 mm of a bone, paths less than 2 mm inside in every posture that a
+/// body can take. Where bones run into one another no posture is, and no path outside both.
 TEST(PathClearance, ReferenceMusclesEndOnBonesAndRunOutsideThem) {
   const Model model = loadReferenceModel(test::resourceDir());
   const BoneDistances bones{model};

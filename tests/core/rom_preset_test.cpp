@@ -144,7 +144,7 @@ TEST(AverageAdult, ReadsThePoplitealAngleOfThePaper) {
   EXPECT_NEAR(shipped("average-adult").reading_deg("popliteal_adult"), 30, 2);  // Ryu et al.: 30 deg at 50 N m
 }
 
-/// 0.4 to 1.7 optimal lengths while one coordinate goes as far as the preset lets it. Asked: 95 % of the units;
+/// 0.4 to 1.7 optimal lengths while one coordinate goes through the preset's range. Asked: 95 % of the units;
 /// docs/validation.md names those that miss it.
 TEST(AverageAdult, FibersWorkWhileOneCoordinateMoves) {
   const Shipped& s = shipped("average-adult");
