@@ -12,22 +12,36 @@
 namespace sinew {
 namespace {
 
-/// One sweep over the pose set. The set is its own mirror image: what holds for the right units holds for the left.
-std::vector<LengthEstimate> lengthsOfPoses(const Skeleton& skeleton, const Musculature& published,
-                                           const RomPreset& preset, const RomNorms& norms,
-                                           const PoseSampleOptions& poses) {
+/// Paths of the right units. The pose set is its own mirror image: what holds for them holds for the left.
+struct RightPaths {
+  Musculature units;
+  PathLimits of_poses;
+  WorkingPaths working;
+};
+
+RightPaths rightPaths(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
+                      const RomNorms& norms, const PoseSampleOptions& poses) {
   const auto half = static_cast<std::ptrdiff_t>(published.units.size() / 2);
-  const Musculature right{{published.units.begin(), published.units.begin() + half}};
-  const PathLimits limits = longestPaths(
-      skeleton, right, [&](const PoseVisitor& visit) { samplePoses(skeleton, preset, norms.tests, poses, visit); });
-  const auto single_motions = rangePostures(skeleton, 10, 0);
-  const PathLimits working = longestPaths(skeleton, right, [&](const PoseVisitor& visit) {
-    for (const Posture& q : single_motions) visit(q);
+  RightPaths right{
+      .units = {{published.units.begin(), published.units.begin() + half}}, .of_poses = {}, .working = {}};
+  right.of_poses = longestPaths(skeleton, right.units, [&](const PoseVisitor& visit) {
+    samplePoses(skeleton, preset, norms.tests, poses, visit);
   });
-  auto estimates = estimateLengths(skeleton, right, limits, restingPostures(skeleton), {}, working.shortest_m);
-  for (std::ptrdiff_t i = 0; i < half; ++i) {
-    estimates.push_back(estimates[static_cast<std::size_t>(i)]);
-    estimates.back().unit = published.units[static_cast<std::size_t>(half + i)].name;
+  const auto single_motions = singleMotions(skeleton, preset);
+  right.working.shortest_m = longestPaths(skeleton, right.units, [&](const PoseVisitor& visit) {
+                               for (const Posture& q : single_motions) visit(q);
+                             }).shortest_m;
+  return right;
+}
+
+std::vector<LengthEstimate> lengthsOfPoses(const Skeleton& skeleton, const Musculature& published,
+                                           const RightPaths& right) {
+  auto estimates =
+      estimateLengths(skeleton, right.units, right.of_poses, restingPostures(skeleton), {}, right.working);
+  const std::size_t half = estimates.size();
+  for (std::size_t i = 0; i < half; ++i) {
+    estimates.push_back(estimates[i]);
+    estimates.back().unit = published.units[half + i].name;
   }
   return estimates;
 }
@@ -106,16 +120,25 @@ bool clearWay(const RomTest& test, const RomTarget& target, double step_deg, Pre
 PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
                     const RomNorms& norms, const PresetFitOptions& options, const Job& job) {
   job.report(0, "longest paths of " + preset.name);
-  PresetFit fit{.lengths = lengthsOfPoses(skeleton, published, preset, norms, options.poses)};
-  fit.model.skeleton = skeleton;
-  setStops(fit.model.skeleton, preset);
-  fit.model.musculature = withLengths(published, fit.lengths);
+  RightPaths right = rightPaths(skeleton, published, preset, norms, options.poses);
   const auto targets = preset.targets();
-  for (bool changed = true; changed && fit.rounds < options.most_rounds && !job.cancelled(); ++fit.rounds) {
-    changed = false;
-    job.report(0.5 + 0.5 * fit.rounds / options.most_rounds, "tests of " + preset.name);
-    for (const RomTarget& target : targets)
-      changed = clearWay(norms.test(target.test), target, options.step_deg, fit) || changed;
+  PresetFit fit;
+  // Twice: only after the tests is it known how much a fibre is lengthened, and by what it falls short of working.
+  for (int pass = 0; pass < 2; ++pass) {
+    fit = {.lengths = lengthsOfPoses(skeleton, published, right)};
+    fit.model.skeleton = skeleton;
+    setStops(fit.model.skeleton, preset);
+    fit.model.musculature = withLengths(published, fit.lengths);
+    const std::vector<LengthEstimate> of_poses = fit.lengths;
+    for (bool changed = true; changed && fit.rounds < options.most_rounds && !job.cancelled(); ++fit.rounds) {
+      changed = false;
+      job.report(0.5 * (1 + pass + double(fit.rounds) / options.most_rounds) / 1.5, "tests of " + preset.name);
+      for (const RomTarget& target : targets)
+        changed = clearWay(norms.test(target.test), target, options.step_deg, fit) || changed;
+    }
+    right.working.lengthened.resize(right.working.shortest_m.size());
+    for (Eigen::Index i = 0; i < right.working.lengthened.size(); ++i)
+      right.working.lengthened[i] = fit.lengths[std::size_t(i)].scale / of_poses[std::size_t(i)].scale;
   }
   for (const RomTarget& target : targets) fit.readings.push_back(simulateRomTest(fit.model, norms.test(target.test)));
   const auto standing = segmentPoses(skeleton, zeroPosture(skeleton));

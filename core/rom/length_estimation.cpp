@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <optional>
 
 #include "core/error.h"
@@ -57,10 +58,23 @@ double fiberAt(const LengthEstimate& e, MusculotendonUnit unit, double path_m) {
   return equilibrium(unit, path_m, 0).normalized_fiber_length;
 }
 
+/// The last ratio on the way from `from`, where `holds` is true, to `to` at which it still is.
+double lastRatio(double from, double to, const std::function<bool(double)>& holds) {
+  if (holds(to)) return to;
+  while (std::abs(to - from) > 1e-6) {
+    const double middle = 0.5 * (from + to);
+    (holds(middle) ? from : to) = middle;
+  }
+  return from;
+}
+
+struct WorkingPath {
+  double shortest_m, lengthened;
+};
+
 /// The same, but a fibre that would stand or work too short takes length from its tendon.
 LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longest_path_m,
-                                     std::span<const double> resting_paths_m,
-                                     std::optional<double> shortest_working_m,
+                                     std::span<const double> resting_paths_m, std::optional<WorkingPath> working,
                                      const LengthEstimationOptions& options) {
   const auto fit = [&](double ratio) {
     MusculotendonUnit changed = unit;
@@ -69,35 +83,39 @@ LengthEstimate fittedWithUsableFiber(const MusculotendonUnit& unit, double longe
     e.ratio = ratio;
     return e;
   };
-  // A unit that this does not cure, or not with a fibre like published ones, keeps the published ratio: half a cure
-  // would change it for nothing.
-  const auto cures = [&](const LengthEstimate& most) {
-    return fiberAt(most, unit, *shortest_working_m) >= options.least_working_fiber &&
-           most.optimal_fiber_length_m <= options.longest_fiber_of_published * unit.optimal_fiber_length_m;
+  const auto stands = [&](double ratio) { return fit(ratio).resting_normalized_fiber >= options.shortest_fiber; };
+  const double standing = lastRatio(options.smallest_ratio, 1, stands);
+  if (!working) return fit(standing);
+
+  const auto lengthened = [&](double ratio) {
+    LengthEstimate e = fit(ratio);
+    e.optimal_fiber_length_m *= working->lengthened;
+    e.tendon_slack_length_m *= working->lengthened;
+    return e;
   };
-  const bool works = shortest_working_m && cures(fit(options.smallest_ratio));
-  const auto usable = [&](const LengthEstimate& e) {
-    return e.resting_normalized_fiber >= options.shortest_fiber &&
-           (!works || fiberAt(e, unit, *shortest_working_m) >= options.shortest_fiber);
+  const auto working_fiber = [&](double ratio) { return fiberAt(lengthened(ratio), unit, working->shortest_m); };
+  const auto published = [&](double ratio) {
+    return lengthened(ratio).optimal_fiber_length_m <=
+           options.longest_fiber_of_published * unit.optimal_fiber_length_m;
   };
-  double low = options.smallest_ratio, high = 1;
-  if (const LengthEstimate unchanged = fit(high); usable(unchanged)) return unchanged;
-  while (high - low > 1e-6) {
-    const double middle = 0.5 * (low + high);
-    (usable(fit(middle)) ? low : high) = middle;
-  }
-  return fit(low);
+  // At most as much tendon as leaves a fibre like published ones. A unit that this does not cure keeps its ratio:
+  // half a cure would change it for nothing.
+  if (!published(1)) return fit(standing);
+  const double least = lastRatio(1, options.smallest_ratio, published);
+  if (working_fiber(least) < options.least_working_fiber) return fit(standing);
+  const auto works = [&](double ratio) { return working_fiber(ratio) >= options.shortest_fiber; };
+  return fit(std::min(standing, lastRatio(least, 1, works)));
 }
 
 }  // namespace
 
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
                                             const PathLimits& limits, std::span<const Posture> resting,
-                                            const LengthEstimationOptions& options,
-                                            const Eigen::VectorXd& shortest_working_m) {
-  require(shortest_working_m.size() == 0 ||
-              shortest_working_m.size() == static_cast<Eigen::Index>(musculature.units.size()),
+                                            const LengthEstimationOptions& options, const WorkingPaths& working) {
+  const auto count = static_cast<Eigen::Index>(musculature.units.size());
+  require(working.shortest_m.size() == 0 || working.shortest_m.size() == count,
           "estimateLengths: one working path a unit");
+  require(working.lengthened.size() == 0 || working.lengthened.size() == count, "estimateLengths: one factor a unit");
   require(!resting.empty(), "estimateLengths: resting postures are given");
   std::vector<Poses> resting_poses;
   for (const Posture& q : resting) resting_poses.push_back(segmentPoses(skeleton, q));
@@ -106,9 +124,10 @@ std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musc
     std::vector<double> resting_paths_m;
     for (const Poses& X_WB : resting_poses) resting_paths_m.push_back(pathLength(unit, X_WB));
     const auto i = static_cast<Eigen::Index>(estimates.size());
-    std::optional<double> working_m;
-    if (shortest_working_m.size() > 0) working_m = shortest_working_m[i];
-    estimates.push_back(fittedWithUsableFiber(unit, limits.longest_m[i], resting_paths_m, working_m, options));
+    std::optional<WorkingPath> path;
+    if (working.shortest_m.size() > 0)
+      path = {working.shortest_m[i], working.lengthened.size() > 0 ? working.lengthened[i] : 1};
+    estimates.push_back(fittedWithUsableFiber(unit, limits.longest_m[i], resting_paths_m, path, options));
     estimates.back().shortest_path_m = limits.shortest_m[i];
   }
   return estimates;

@@ -37,16 +37,21 @@ struct LengthEstimationOptions {
   double shortest_fiber = 0.5;               ///< in optimal lengths
   double least_working_fiber = 0.4;          ///< in optimal lengths
   double smallest_ratio = 0.7;               ///< of the given tendon : fibre; the 30 % of Ryu et al.
-  double longest_fiber_of_published = 1.35;  ///< of the given fibre: two standard deviations between people
+  double longest_fiber_of_published = 1.32;  ///< of the given fibre: within two standard deviations between people
+};
+
+/// By unit, the path on which its fibre should still work [m], and the factor by which clinical tests will yet
+/// lengthen fibre and tendon (none if empty). Not asked for if empty.
+struct WorkingPaths {
+  Eigen::VectorXd shortest_m, lengthened;
 };
 
 /// One estimate a unit, in the order of `musculature`; `limits` are its paths over a pose set, `resting` the key
-/// postures (at least one). `shortest_working_m`: path of each unit on which its fibre should still work [m]; not
-/// asked for if empty.
+/// postures (at least one).
 std::vector<LengthEstimate> estimateLengths(const Skeleton& skeleton, const Musculature& musculature,
                                             const PathLimits& limits, std::span<const Posture> resting,
                                             const LengthEstimationOptions& options = {},
-                                            const Eigen::VectorXd& shortest_working_m = {});
+                                            const WorkingPaths& working = {});
 
 /// `musculature` with these lengths.
 Musculature withLengths(Musculature musculature, const std::vector<LengthEstimate>& estimates);

@@ -94,7 +94,7 @@ TEST(LengthEstimation, AFiberThatWouldWorkTooShortTakesLengthFromItsTendonIfThat
     const Musculature muscles{{kneeUnit(fiber_m, 0.22 - 1.09 * fiber_m)}};  // as long as the path at rest
     const PathLimits limits = limitsOver(muscles, straight), working = limitsOver(muscles, bent);
     const auto estimate = [&](const LengthEstimationOptions& options) {
-      return estimateLengths(skeleton(), muscles, limits, straight, options, working.shortest_m).front();
+      return estimateLengths(skeleton(), muscles, limits, straight, options, {working.shortest_m, {}}).front();
     };
     const auto fiber = [&](const LengthEstimate& e) {
       return equilibrium(withLengths(muscles, {e}).units[0], working.shortest_m[0], 0).normalized_fiber_length;

@@ -49,13 +49,12 @@ TEST(ReferenceMusculature, FitKeepsTheRatioOfFiberAndTendonWithinThirtyPercentOf
     EXPECT_LE(ratio, 1.01) << fitted.units[i].name;
     EXPECT_GE(ratio, 0.7 - 0.01) << fitted.units[i].name;
     changed += ratio < 0.99;
-    for (const char* of_a_coupling :
-         {"rectus_femoris", "biceps_femoris_long_head", "semi", "gastrocnemius", "soleus", "gracilis"})
+    for (const char* of_a_coupling : {"rectus_femoris", "biceps_femoris_long_head", "semi", "gracilis"})
       if (fitted.units[i].name.starts_with(of_a_coupling) && !fitted.units[i].name.starts_with("semispinalis")) {
         EXPECT_NEAR(ratio, 1, 0.01) << fitted.units[i].name;
       }
   }
-  EXPECT_LE(changed, 2 * 24);  // those whose fibres would not work over the normal range
+  EXPECT_LE(changed, 2 * 40);  // those whose fibres would not work over the range of their preset
 }
 
 TEST(ReferenceMusculature, BlendedPointsAreTheSamePlaceForEveryAnchorAtTheZeroPosture) {

@@ -128,8 +128,6 @@ TEST_P(Preset, TestsGetAsFarAsTheirTargets) {
 TEST_P(Preset, CouplingsAreThoseOfPeople) {
   constexpr double kAllowed_deg = 10;
   for (const RomCouplingLine& line : s().report.couplings) {
-    // The model's triceps loses its arm beyond 130 deg of elbow flexion: nothing is left that could hold there.
-    if (line.coupling->id == "triceps_difference") continue;
     if (GetParam() == "average-adult") {  // gymnasts: nothing may be left of it
       EXPECT_TRUE(line.right_way) << line.coupling->id << " " << line.difference_deg;
     }
@@ -146,13 +144,13 @@ TEST(AverageAdult, ReadsThePoplitealAngleOfThePaper) {
   EXPECT_NEAR(shipped("average-adult").reading_deg("popliteal_adult"), 30, 2);  // Ryu et al.: 30 deg at 50 N m
 }
 
-/// 0.4 to 1.7 optimal lengths while one coordinate goes through its normal range. Asked: 95 % of the units;
+/// 0.4 to 1.7 optimal lengths while one coordinate goes through the preset's range. Asked: 95 % of the units;
 /// docs/validation.md names those that miss it.
 TEST(AverageAdult, FibersWorkWhileOneCoordinateMoves) {
   const Shipped& s = shipped("average-adult");
   const std::size_t half = s.model.musculature.units.size() / 2;
   std::vector<bool> works(half, true);
-  for (const Posture& q : rangePostures(s.model.skeleton, 10, 0)) {
+  for (const Posture& q : singleMotions(s.model.skeleton, s.preset)) {
     const auto X_WB = segmentPoses(s.model.skeleton, q);
     for (std::size_t u = 0; u < half; ++u) {
       const MusculotendonUnit& unit = s.model.musculature.units[u];
@@ -162,7 +160,7 @@ TEST(AverageAdult, FibersWorkWhileOneCoordinateMoves) {
   }
   const auto count = std::ranges::count(works, true);
   std::printf("%td of %zu units stay within 0.4 to 1.7\n", count, half);
-  EXPECT_GE(count, 116);
+  EXPECT_GE(count, 0.95 * half);
 }
 
 TEST(AverageAdult, StraightLegRaiseIsLessThanWithABentKnee) {
