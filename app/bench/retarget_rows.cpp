@@ -107,7 +107,7 @@ void RetargetRows::addWholeBody() {
   const auto body = [reference = reference_](const ShapeParameters& shape, RetargetMethod method) {
     return Workload{[reference, shape, method] { retarget(*reference, shape, {.method = method}); }, 1};
   };
-  const std::string peer = "routing by gradient descent";
+  const std::string peer = "routing and ratios by gradient descent";
   BenchRow whole =
       row(14, "14 retargeting", "shape, routing, lengths over 72,000 postures, peak torque; body without symmetry",
           "body", 10, peer);

@@ -37,7 +37,6 @@ struct EnergyTotals {
 EnergyTotals energyTotals(std::span<const UnitRouting> routing, const RoutingWeights& weights = {});
 
 /// How far the angles of peak torque are off.
-inline constexpr double kPeakTorqueTarget_deg = 3;
 struct PeakTorqueTotals {
   int motions = 0;  ///< with a peak in the reference
   int within_before = 0, within_after = 0;

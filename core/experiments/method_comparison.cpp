@@ -33,6 +33,19 @@ Routed routed(const RetargetReference& reference, const Model& naive, RetargetMe
   return {std::move(routing.units), clock.read()};
 }
 
+struct Whole {
+  PeakTorqueTotals peaks;
+  MethodTime time;
+};
+
+/// All steps. Of no use if cancelled.
+Whole whole(const RetargetReference& reference, const ShapeParameters& shape, RetargetMethod method, const Job& job) {
+  const MethodClock clock;
+  const Retargeted body = retarget(reference, shape, {.method = method}, {.stop = job.stop});
+  const MethodTime time = clock.read();
+  return {peakTorqueTotals(body.peak_torque), time};
+}
+
 std::vector<double> totals(const std::vector<UnitRouting>& units, RoutingEnergy UnitRouting::*which) {
   std::vector<double> energies;
   for (const UnitRouting& unit : units) energies.push_back((unit.*which).total({}));
@@ -65,11 +78,6 @@ void judge(const std::vector<std::string>& units, const BodyComparison& body, En
 
 }  // namespace
 
-MethodTime BodyComparison::wholePaper() const {
-  return {whole_sinew.cpu_s - routing_sinew.cpu_s + routing_paper.cpu_s,
-          whole_sinew.wall_s - routing_sinew.wall_s + routing_paper.wall_s};
-}
-
 MethodComparison compareMethods(const RetargetReference& reference, const std::vector<NamedShape>& shapes,
                                 const Job& job) {
   MethodComparison result;
@@ -79,13 +87,13 @@ MethodComparison compareMethods(const RetargetReference& reference, const std::v
     const Model naive = deformedModel(reference.model(), shape.shape);
     const Routed paper = routed(reference, naive, RetargetMethod::Paper, job);
     const Routed sinew = routed(reference, naive, RetargetMethod::Sinew, job);
-    const MethodClock clock;
-    const Retargeted whole = retarget(reference, shape.shape, {}, {.stop = job.stop});
-    const MethodTime whole_time = clock.read();
-    if (whole.outcome != Outcome::Converged) return {.outcome = whole.outcome};
+    const Whole whole_paper = whole(reference, shape.shape, RetargetMethod::Paper, job);
+    const Whole whole_sinew = whole(reference, shape.shape, RetargetMethod::Sinew, job);
+    if (job.cancelled()) return {.outcome = Outcome::Cancelled};
     result.bodies.push_back({shape.name, totals(sinew.units, &UnitRouting::start),
                              totals(paper.units, &UnitRouting::end), totals(sinew.units, &UnitRouting::end),
-                             paperEnergy(paper.units), paperEnergy(sinew.units), paper.time, sinew.time, whole_time});
+                             paperEnergy(paper.units), paperEnergy(sinew.units), paper.time, sinew.time,
+                             whole_paper.time, whole_sinew.time, whole_paper.peaks, whole_sinew.peaks});
   }
   result.outcome = Outcome::Converged;
   return result;

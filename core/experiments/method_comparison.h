@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/experiments/characters.h"
 #include "core/experiments/kept_functions.h"
 #include "core/job.h"
 #include "core/retarget/retarget.h"
@@ -27,9 +28,8 @@ struct BodyComparison {
   double paper_energy_paper = 0,            ///< E_direction + w_l E_length, all units: reached by `paper`,
       paper_energy_sinew = 0;               ///< by `sinew`
   MethodTime routing_paper, routing_sinew;
-  MethodTime whole_sinew;  ///< all steps
-  /// All steps with the paper's routing: the other steps are the same and not run twice.
-  MethodTime wholePaper() const;
+  MethodTime whole_paper, whole_sinew;        ///< all steps
+  PeakTorqueTotals peaks_paper, peaks_sinew;  ///< of each method's own routing
 };
 
 /// Units whose energies are compared: there is something to improve in the new body (more than 1e-9). Equal: within a

@@ -62,31 +62,38 @@ Eigen::VectorXd differences(const UnitProblem& problem, const Eigen::VectorXd& x
 
 Minimum descent(const UnitProblem& problem, const Eigen::VectorXd& from, const DescentOptions& options,
                 const std::stop_token& stop) {
+  const auto gradient = [&](const Eigen::VectorXd& x, double energy) {
+    if (options.finite_differences) return differences(problem, x, energy);
+    Eigen::VectorXd exact;
+    problem.energy(x, exact);
+    return exact;
+  };
+  return descent({[&](const Eigen::VectorXd& x) { return problem.energy(x); }, gradient}, from, options, stop);
+}
+
+Minimum descent(const DescentProblem& problem, const Eigen::VectorXd& from, const DescentOptions& options,
+                const std::stop_token& stop) {
   constexpr int kMostTrials = 14;
-  constexpr double kFirstStep_m = 1e-3, kGrowth = 1.7, kShrink = 0.4, kSufficient = 1e-4, kFlat = 1e-7;
+  constexpr double kGrowth = 1.7, kShrink = 0.4, kSufficient = 1e-4, kFlat = 1e-7;
   Minimum best{from, problem.energy(from)};
-  Eigen::VectorXd gradient;
-  double step_m = kFirstStep_m;
+  double length = options.first_step;
   while (best.iterations < options.most_iterations && !stop.stop_requested()) {
     ++best.iterations;
-    if (options.finite_differences)
-      gradient = differences(problem, best.x, best.energy);
-    else
-      problem.energy(best.x, gradient);
+    const Eigen::VectorXd gradient = problem.gradient(best.x, best.energy);
     const double slope = gradient.norm();
     if (slope < kFlat) break;
     const double before = best.energy;
     bool better = false;
     for (int trial = 0; trial < kMostTrials && !better; ++trial) {
-      const Eigen::VectorXd x = best.x - gradient * (step_m / slope);
+      const Eigen::VectorXd x = (best.x - gradient * (length / slope)).cwiseMax(problem.low).cwiseMin(problem.high);
       const double energy = problem.energy(x);
-      better = energy < best.energy - kSufficient * step_m * slope;
+      better = energy < best.energy - kSufficient * length * slope;
       if (better) {
         best.x = x;
         best.energy = energy;
-        step_m *= kGrowth;
+        length *= kGrowth;
       } else {
-        step_m *= kShrink;
+        length *= kShrink;
       }
     }
     if (!better || before - best.energy < options.tolerance * before) break;

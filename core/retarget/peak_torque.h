@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "core/job.h"
-#include "core/kernel/pose_table.h"
-#include "core/model/model.h"
-#include "core/skeleton/joint_motion.h"
+#include "core/retarget/torque_geometry.h"
 
 namespace sinew {
 
@@ -14,39 +12,8 @@ namespace sinew {
 // torque of a motion is that of all units that turn the coordinate its way, fully active and still: active share of
 // the force times moment arm. docs/methods/retargeting.md.
 
-/// What the torques of one body depend on, measured once: path lengths and moment arms over every motion. They do not
-/// change with the ratios.
-class TorqueGeometry {
- public:
-  static constexpr int kSamples = 25;  ///< evenly over theta
-
-  /// `postures`: motionPostures() of the reference; `units_of`: by motion, the units that span its coordinate.
-  TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
-                 const std::vector<JointMotion>& motions);
-  /// The same, of which `unchanged` units are taken over from `previous`.
-  TorqueGeometry(const Model& model, const PoseTable& postures, const std::vector<std::vector<int>>& units_of,
-                 const std::vector<JointMotion>& motions, const TorqueGeometry& previous,
-                 const std::vector<bool>& unchanged);
-
-  struct UnitInMotion {
-    int unit = -1;
-    std::vector<double> length_m, arm_m;  ///< by sample; arm 0 where the unit does not turn the motion's way
-  };
-  const std::vector<UnitInMotion>& unitsOf(std::size_t motion) const { return units_[motion]; }
-  std::size_t motionCount() const { return units_.size(); }
-
- private:
-  std::vector<std::vector<UnitInMotion>> units_;
-};
-
-/// Three postures a sample of every motion: a little before, at, a little behind.
-PoseTable motionPostures(const Skeleton& skeleton, const std::vector<JointMotion>& motions);
-
-/// Torque of one motion by sample [N m], and where it is greatest.
-std::vector<double> motionTorque_Nm(const Musculature& musculature, const TorqueGeometry& geometry,
-                                    std::size_t motion);
-/// theta in [0, 1] of the greatest torque, on the parabola through the samples around it; NaN if nothing turns.
-double peakTheta(const std::vector<double>& torque_Nm);
+/// How far the angle of peak torque may be off.
+inline constexpr double kPeakTorqueTarget_deg = 3;
 
 struct PeakTorqueAngle {
   std::string motion;
@@ -56,7 +23,7 @@ struct PeakTorqueAngle {
 struct PeakTorqueOptions {
   double largest_change = 0.3;  ///< of a ratio
   double ratio_price = 1e-4;    ///< of a squared relative change, against squared shares of the greatest torque
-  int most_iterations = 30;
+  int most_iterations = 200;
 };
 
 struct PeakTorqueResult {
@@ -66,9 +33,17 @@ struct PeakTorqueResult {
   int iterations = 0;
 };
 
-/// Changes fibre and tendon lengths of `musculature`. `wanted_theta`: peakTheta() of the reference by motion.
+/// Changes fibre and tendon lengths of `musculature`. `wanted_theta`: peakTheta() of the reference by motion. As many
+/// motions as can be found a way for come within kPeakTorqueTarget_deg; none that was within leaves.
 PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::vector<JointMotion>& motions,
                                     const std::vector<double>& wanted_theta, Musculature& musculature,
                                     const PeakTorqueOptions& options = {}, const Job& job = {});
+
+/// The paper's way: gradient descent on the sum of (theta - wanted)^2, the gradient by finite differences, with a
+/// line search, within the same bounds. Torques are summed from measured paths and arms, and of a difference only the
+/// unit that it is of is computed anew: what the text allows at its fastest.
+PeakTorqueResult descendPeakTorque(const TorqueGeometry& geometry, const std::vector<JointMotion>& motions,
+                                   const std::vector<double>& wanted_theta, Musculature& musculature,
+                                   const PeakTorqueOptions& options = {}, const Job& job = {});
 
 }  // namespace sinew

@@ -12,14 +12,14 @@ double longestOf(MusculotendonUnit unit, double fiber_m, double tendon_m) {
   return longestLength_m(unit);
 }
 
+}  // namespace
+
 MusculotendonUnit withoutPath(const MusculotendonUnit& unit) {
   MusculotendonUnit bare = unit;
   bare.path.clear();
   bare.source.clear();
   return bare;
 }
-
-}  // namespace
 
 void setFiberTendonRatio(MusculotendonUnit& unit, double factor) {
   const double longest_m = longestLength_m(unit);
@@ -59,26 +59,31 @@ CurveValue RatioForce::at(double length_m, double& start) const {
     balance_slope = (active.slope + passive.slope) * cosine_ + tendon.slope * l0 * cosine_ / slack;
     return (active.value + passive.value) * cosine_ - tendon.value;
   };
+  constexpr double kSmall = 1e-5;  // a step behind which Newton's error is 1e-10, and the curves are straight
   bool converged = false;
   for (int i = 0; i < 6 && l > kShortestFiber && !converged; ++i) {
     const double off = imbalance();
     if (!(balance_slope > 0)) break;
     const double step = off / balance_slope;
     l -= step;
-    converged = std::abs(step) < 1e-9;
+    active.value -= active.slope * step;
+    converged = std::abs(step) < kSmall;
   }
   if (!converged || !(l > kShortestFiber)) {
     l = equilibrium(unit_, length_m, 1).normalized_fiber_length;
     imbalance();
   }
   start = l;
-  if (l <= kShortestFiber || !(tendon.value > 0)) return {};
+  if (!(tendon.value > 0)) return {};
+  const double force_N = unit_.max_isometric_force_N;
+  if (l <= kShortestFiber)  // the fibre cannot follow any more: what the tendon carries
+    return {force_N * tendon.value,
+            -force_N * tendon.slope * (l * cosine_ * fiber_slope_m_ + tendon_m / slack * slack_slope_m_) / slack};
   // Implicit function: the balance holds while fibre and tendon change along the ratio.
   const double balance_by_factor =
       tendon.slope * (l * cosine_ * fiber_slope_m_ / slack + tendon_m / (slack * slack) * slack_slope_m_);
   const double l_slope = balance_slope > 0 ? -balance_by_factor / balance_slope : 0;
-  const double scale = unit_.max_isometric_force_N * cosine_;
-  return {scale * active.value, scale * active.slope * l_slope};
+  return {force_N * cosine_ * active.value, force_N * cosine_ * active.slope * l_slope};
 }
 
 }  // namespace sinew

@@ -7,6 +7,9 @@ namespace sinew {
 /// Fibre : tendon ratio times `factor`, longest length (1.6 l0 + 1.03 l_slack) kept.
 void setFiberTendonRatio(MusculotendonUnit& unit, double factor);
 
+/// What forces depend on: for copies that are made often.
+MusculotendonUnit withoutPath(const MusculotendonUnit& unit);
+
 /// The active force of a fully active unit as a function of a factor on its fibre : tendon ratio, many times over:
 /// Newton from the fibre length found last.
 class RatioForce {

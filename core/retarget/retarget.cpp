@@ -127,8 +127,9 @@ Retargeted retargeted(const RetargetReference& reference, const ShapeParameters&
                                                         reference.unitsOfMotion(), reference.motions());
   PeakTorqueOptions peak_options;
   if (naive || !options.peak_torque) peak_options.most_iterations = 0;
-  PeakTorqueResult peaks = optimizePeakTorque(*result.torque_geometry, reference.motions(), reference.peakThetas(),
-                                              result.model.musculature, peak_options, step(job, 0.8, 1));
+  const auto optimize = options.method == RetargetMethod::Paper ? descendPeakTorque : optimizePeakTorque;
+  PeakTorqueResult peaks = optimize(*result.torque_geometry, reference.motions(), reference.peakThetas(),
+                                    result.model.musculature, peak_options, step(job, 0.8, 1));
   if (peaks.outcome == Outcome::Cancelled) return cancelled;
   result.peak_torque = std::move(peaks.angles);
   result.fiber_tendon_ratio = std::move(peaks.ratio);

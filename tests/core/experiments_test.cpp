@@ -109,8 +109,10 @@ TEST(MethodComparison, LeastSquaresEndLowerThanTheDescent) {
   EXPECT_LT(verdict.sum_sinew, verdict.sum_paper);
   EXPECT_LT(verdict.sum_paper, verdict.sum_start);
   const BodyComparison& body = found.bodies.front();
-  EXPECT_NEAR(body.wholePaper().cpu_s - body.whole_sinew.cpu_s, body.routing_paper.cpu_s - body.routing_sinew.cpu_s,
-              1e-9);
+  EXPECT_GT(body.whole_paper.cpu_s, body.whole_sinew.cpu_s);  // by more than any noise: see docs/validation.md
+  EXPECT_GT(body.peaks_sinew.motions, 70);
+  EXPECT_GE(body.peaks_sinew.within_after, body.peaks_sinew.within_before);
+  EXPECT_GE(body.peaks_sinew.within_after, body.peaks_paper.within_after);
 }
 
 TEST(EnergyVerdict, CountsByHand) {

@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "core/muscle/hill.h"
+#include "core/retarget/peak_condition_internal.h"
+#include "core/retarget/peak_reach.h"
 #include "core/retarget/peak_torque.h"
 #include "core/retarget/ratio_force_internal.h"
 #include "tests/support/resources.h"
@@ -58,6 +62,35 @@ TEST(PeakTorque, AKnownChangeOfRatiosIsUndone) {
   EXPECT_NEAR(elbow.motions[0].angle_deg(after), angle.after_deg, 0.01);
 }
 
+TEST(PeakTorque, ThePapersDescentUndoesIt) {
+  Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  const double wanted = peakTheta(motionTorque_Nm(elbow.model.musculature, geometry, 0));
+  Musculature changed = elbow.model.musculature;
+  for (MusculotendonUnit& unit : changed.units) setFiberTendonRatio(unit, 1.25);
+  const PeakTorqueResult result = descendPeakTorque(geometry, elbow.motions, {wanted}, changed);
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  const PeakTorqueAngle& angle = result.angles.front();
+  EXPECT_GT(std::abs(angle.before_deg - angle.reference_deg), 3);
+  EXPECT_NEAR(angle.after_deg, angle.reference_deg, 0.1);  // one smooth peak: nothing stops the descent before
+  for (const double ratio : result.ratio) EXPECT_NEAR(ratio, 1, 0.3 + 1e-9);
+  const double after = peakTheta(motionTorque_Nm(changed, geometry, 0));
+  EXPECT_NEAR(elbow.motions[0].angle_deg(after), angle.after_deg, 1e-9);
+}
+
+TEST(PeakTorque, BothMethodsStayWithinTheBoundsWhereNothingReaches) {
+  for (const auto method : {optimizePeakTorque, descendPeakTorque}) {
+    Elbow elbow;
+    const TorqueGeometry geometry = elbow.geometry();
+    const PeakTorqueResult result = method(geometry, elbow.motions, {0.0}, elbow.model.musculature, {}, {});
+    ASSERT_EQ(result.outcome, Outcome::Converged);
+    const PeakTorqueAngle& angle = result.angles.front();
+    EXPECT_GT(std::abs(angle.after_deg - angle.reference_deg), 3);  // PeakReach says so below
+    EXPECT_LE(std::abs(angle.after_deg - angle.reference_deg), std::abs(angle.before_deg - angle.reference_deg));
+    for (const double ratio : result.ratio) EXPECT_NEAR(ratio, 1, 0.3 + 1e-9);
+  }
+}
+
 TEST(PeakTorque, WhereTheAngleIsRightRatiosStay) {
   Elbow elbow;
   const TorqueGeometry geometry = elbow.geometry();
@@ -80,6 +113,71 @@ TEST(PeakTorque, TheSlopeOfTheForceWithTheRatioIsThatOfCentralDifferences) {
   force.setFactor(1.1 - kStep);
   const double less = force.at(length_m, fiber).value;
   EXPECT_NEAR(at.slope, (more - less) / (2 * kStep), 1e-5 * unit.max_isometric_force_N);
+}
+
+TEST(PeakTorque, TheForceIsThatOfTheEquilibriumDownToSlack) {
+  const MusculotendonUnit unit = Elbow{}.model.musculature.units[0];
+  RatioForce force{unit};
+  double fiber = 0;
+  int carried = 0;
+  // From long to shorter than the tendon: past the shortest fibre, where the tendon alone slackens.
+  const double first_m = longestLength_m(unit), last_m = 0.9 * unit.tendon_slack_length_m;
+  for (int i = 0; i <= 4000; ++i) {
+    const double length_m = first_m + (last_m - first_m) * i / 4000;
+    const double expected_N = equilibrium(unit, length_m, 1).active_force_N;
+    ASSERT_NEAR(force.at(length_m, fiber).value, expected_N, 1e-6 * unit.max_isometric_force_N) << length_m;
+    carried += fiber <= kShortestFiber && expected_N > 0;
+  }
+  EXPECT_GT(carried, 0);  // that stretch was met
+}
+
+constexpr int kSamples = TorqueGeometry::kSamples;
+
+TEST(PeakConditions, SayExactlyWherePeakThetaLies) {
+  std::mt19937_64 random{5};
+  const auto share = [&] { return double(random() >> 11) * 0x1p-53; };
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    // One hump anywhere, also at an end, and some noise: often two humps.
+    const double centre = share() * 1.4 - 0.2, noise = 0.05 * share();
+    MotionTorques::Samples torque_Nm;
+    for (int s = 0; s < kSamples; ++s)
+      torque_Nm[s] = 5 - std::pow(double(s) / (kSamples - 1) - centre, 2) + noise * share();
+    const double low = share() * (kSamples - 1), high = low + 4 * share();
+    const double peak = peakTheta(torque_Nm) * (kSamples - 1);
+    bool holds = false;
+    for (const auto& conditions : peakAlternatives(low, high))
+      holds = holds || std::ranges::all_of(conditions, [&](const auto& c) { return c.of(torque_Nm) >= 0; });
+    ASSERT_EQ(holds, low <= peak && peak <= high) << low << " .. " << high << ": " << peak;
+    ++(holds ? inside : outside);
+  }
+  EXPECT_GT(inside, 100);  // both kinds were met
+  EXPECT_GT(outside, 100);
+}
+
+TEST(PeakReach, WhereThePeakIsItCanBe) {
+  const Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  const double now = peakTheta(motionTorque_Nm(elbow.model.musculature, geometry, 0));
+  EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], now, elbow.model.musculature), PeakReach::Within);
+}
+
+TEST(PeakReach, WhatAKnownChangeOfRatiosMovedCanBeReached) {
+  const Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  Musculature changed = elbow.model.musculature;
+  for (MusculotendonUnit& unit : changed.units) setFiberTendonRatio(unit, 1.25);
+  const double wanted = peakTheta(motionTorque_Nm(changed, geometry, 0));
+  EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], wanted, elbow.model.musculature), PeakReach::Within);
+}
+
+TEST(PeakReach, NoRatiosGiveAPeakWhereTheArmsVanish) {
+  // Straight, the elbow's flexors have so much smaller arms than half bent that no ratio makes up for it.
+  const Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], 0, elbow.model.musculature), PeakReach::Out);
+  EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], 0, elbow.model.musculature, {.tolerance_deg = 200}),
+            PeakReach::Within);
 }
 
 }  // namespace

@@ -9,16 +9,21 @@
 namespace sinew {
 namespace {
 
-struct Times {
+struct Sums {
   MethodTime routing_paper, routing_sinew, whole_paper, whole_sinew;
+  PeakTorqueTotals peaks_paper, peaks_sinew;
 };
 
-Times sumOf(const MethodComparison& found) {
-  Times sum;
+Sums sumOf(const MethodComparison& found) {
+  Sums sum;
   const auto add = [](MethodTime& to, const MethodTime& t) { to.cpu_s += t.cpu_s, to.wall_s += t.wall_s; };
+  const auto addPeaks = [](PeakTorqueTotals& to, const PeakTorqueTotals& t) {
+    to.motions += t.motions, to.within_before += t.within_before, to.within_after += t.within_after;
+  };
   for (const BodyComparison& body : found.bodies) {
     add(sum.routing_paper, body.routing_paper), add(sum.routing_sinew, body.routing_sinew);
-    add(sum.whole_paper, body.wholePaper()), add(sum.whole_sinew, body.whole_sinew);
+    add(sum.whole_paper, body.whole_paper), add(sum.whole_sinew, body.whole_sinew);
+    addPeaks(sum.peaks_paper, body.peaks_paper), addPeaks(sum.peaks_sinew, body.peaks_sinew);
   }
   return sum;
 }
@@ -37,7 +42,7 @@ KeptFunctions sumOf(const std::vector<KeptFunctions>& list) {
   return sum;
 }
 
-std::vector<Verdict> verdictsOf(const EnergyVerdict& e, const Times& t, const KeptFunctions& kept,
+std::vector<Verdict> verdictsOf(const EnergyVerdict& e, const Sums& t, const KeptFunctions& kept,
                                 const KeptFunctions& naive) {
   constexpr double kFaster = 10, kKept = 0.995, kLower = 0.99;
   const double lower = double(e.lower) / e.compared, not_higher = double(e.lower + e.equal) / e.compared;
@@ -52,6 +57,10 @@ std::vector<Verdict> verdictsOf(const EnergyVerdict& e, const Times& t, const Ke
        t.routing_paper.cpu_s >= kFaster * t.routing_sinew.cpu_s},
       {"the whole body is faster", "", ">= 10 x", ratioText(t.whole_paper, t.whole_sinew),
        t.whole_paper.cpu_s >= kFaster * t.whole_sinew.cpu_s},
+      {"motions whose peak torque is within 3 deg: paper, sinew", "", "no fewer",
+       std::to_string(t.peaks_paper.within_after) + ", " + std::to_string(t.peaks_sinew.within_after) + " of " +
+           std::to_string(t.peaks_sinew.motions),
+       t.peaks_sinew.within_after >= t.peaks_paper.within_after},
       {"functions kept in mild shapes, bones alone", "", "reported", percentText(naive.share(), 2), std::nullopt},
       {"functions kept in mild shapes, retargeted", "", ">= 99.5 %", percentText(kept.share(), 2),
        kept.share() >= kKept}};
@@ -65,13 +74,16 @@ std::string textOf(const MethodComparison& found, const EnergyVerdict& all, cons
                     std::to_string(e.higher), std::to_string(e.higher_by_one_percent), fixed(e.sum_start, 1),
                     fixed(e.sum_paper, 1), fixed(e.sum_sinew, 1), fixed(body.paper_energy_paper, 1),
                     fixed(body.paper_energy_sinew, 1), fixed(body.routing_paper.cpu_s, 2),
-                    fixed(body.routing_sinew.cpu_s, 2), fixed(body.whole_sinew.cpu_s, 2)});
+                    fixed(body.routing_sinew.cpu_s, 2), fixed(body.whole_paper.cpu_s, 2),
+                    fixed(body.whole_sinew.cpu_s, 2), std::to_string(body.peaks_paper.within_after),
+                    std::to_string(body.peaks_sinew.within_after)});
   }
-  std::string text = textTable({"body", "units", "lower", "equal", "higher", "> 1 %", "start", "paper", "sinew",
-                                "E paper", "E sinew", "CPU s paper", "sinew", "whole"},
-                               rows) +
-                     "E: the paper's own energy, E_direction + 10 E_length. CPU: routing by either method, and all "
-                     "steps by sinew.\n";
+  std::string text =
+      textTable({"body", "units", "lower", "equal", "higher", "> 1 %", "start", "paper", "sinew", "E paper",
+                 "E sinew", "CPU s paper", "sinew", "whole paper", "sinew", "peaks paper", "sinew"},
+                rows) +
+      "E: the paper's own energy, E_direction + 10 E_length. CPU: routing, then all steps, by either "
+      "method. Peaks: motions whose angle of peak torque is within 3 deg.\n";
   if (!all.worst_unit.empty())
     text += "furthest above the paper's: " + all.worst_unit + ", x " + fixed(all.worst_ratio, 3) + "\n";
   if (!kept.lost.empty()) {
@@ -114,8 +126,12 @@ Json resultJson(const MethodComparison& found, const EnergyVerdict& all, const F
     json["paper_energy"] = {{"paper", body.paper_energy_paper}, {"sinew", body.paper_energy_sinew}};
     json["seconds"] = {{"routing_paper", timeJson(body.routing_paper)},
                        {"routing_sinew", timeJson(body.routing_sinew)},
-                       {"whole_paper", timeJson(body.wholePaper())},
+                       {"whole_paper", timeJson(body.whole_paper)},
                        {"whole_sinew", timeJson(body.whole_sinew)}};
+    json["peaks_within"] = {{"motions", body.peaks_sinew.motions},
+                            {"before", body.peaks_sinew.within_before},
+                            {"paper", body.peaks_paper.within_after},
+                            {"sinew", body.peaks_sinew.within_after}};
     bodies.push_back(std::move(json));
   }
   return {{"all", verdictJson(all)},

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "core/retarget/peak_reach.h"
+#include "core/retarget/retarget.h"
+
+namespace sinew {
+
+/// By motion: whether any ratios would bring the angle of peak torque within the target, in this motion alone;
+/// nullopt where it is there, or the reference has none.
+std::vector<std::optional<PeakReach>> missedPeaks(const RetargetReference& reference, const Retargeted& body);
+
+/// How many motions of bodies come within the target, and of how many it is proven that they cannot.
+struct PeakCount {
+  int motions = 0, before = 0, after = 0;
+  int left = 0;  ///< within before, not after
+  int out_of_reach = 0, undecided = 0;
+  double worst_before_deg = 0, worst_after_deg = 0;
+  PeakCount& operator+=(const PeakCount& other);
+};
+PeakCount peakCount(const std::vector<PeakTorqueAngle>& angles, const std::vector<std::optional<PeakReach>>& missed);
+
+/// Of many bodies together.
+struct PeakCounts {
+  Outcome outcome = Outcome::NotRun;
+  PeakCount count;
+};
+PeakCounts peakCounts(const RetargetReference& reference, const std::vector<ShapeParameters>& shapes,
+                      const Job& job = {});
+
+}  // namespace sinew

@@ -1,0 +1,32 @@
+#pragma once
+#include "core/muscle/musculature.h"
+#include "core/retarget/torque_geometry.h"
+
+namespace sinew {
+
+// Whether step 3 could bring the angle of peak torque of one motion, alone, to where it is wanted. Most of what stays
+// missed cannot be had: the moment arms of the new body have another shape. docs/methods/retargeting.md.
+
+enum class PeakReach {
+  Within,    ///< ratios are known that do
+  Out,       ///< proven: no ratios do
+  Undecided  ///< neither was found
+};
+
+struct PeakReachOptions {
+  double tolerance_deg = 3;
+  double largest_change = 0.3;  ///< of a ratio
+  int ratios = 121;             ///< that are tried of every unit, evenly within the bounds
+  int most_rounds = 2000;
+};
+
+/// Decides for the motion at place `index` of `geometry`, `motion` itself. `musculature`: ratios of before step 3.
+///
+/// That the peak lies in a given interval are linear conditions c on the torques (of one of a few alternatives), and
+/// the torques are sums over the units, each a function of its own ratio alone. So for any weights w >= 0 of the
+/// conditions the weighted sum of all is greatest where every unit is at its own best ratio; if even then it is
+/// negative, no ratios fulfil all conditions. Weights are searched for by multiplicative updates.
+PeakReach peakReach(const TorqueGeometry& geometry, std::size_t index, const JointMotion& motion, double wanted_theta,
+                    const Musculature& musculature, const PeakReachOptions& options = {});
+
+}  // namespace sinew
