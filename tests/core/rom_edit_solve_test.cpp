@@ -80,6 +80,12 @@ TEST(ThresholdFit, FindsTheLimitsOfABoxOfSamples) {
   EXPECT_EQ(fit.threshold[1], 6.25);                 // was right, stays bit for bit
   EXPECT_EQ(fit.threshold[2], 20);                   // does not matter, stays
   EXPECT_EQ(thresholdError(p, {4.5, 6.25, 20}), 7);  // x = 4 passes, seven times
+  const ThresholdFit quick = descendThresholds(p, reference);
+  EXPECT_EQ(quick.error, 0);
+  EXPECT_NEAR(quick.threshold[0], 4, 2e-5);  // as near to where it began as x <= 3 allows
+  EXPECT_LT(quick.threshold[0], 4);
+  EXPECT_EQ(quick.threshold[1], 6.25);
+  EXPECT_EQ(quick.threshold[2], 20);
 }
 
 TEST(RomEditSolve, AHingeHeldByAStringFollowsExactly) {
