@@ -51,7 +51,6 @@ JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPost
       for (const Eigen::Matrix3d& swing : swings) {
         const Eigen::Matrix3d R_JB = swing * twist;
         cell_vector_.push_back(vectorFromQuaternion(Eigen::Quaterniond{R_JB}));
-        readings_.push_back(clinicalReadings(model.skeleton, j, R_JB));
       }
     }
   } else {

@@ -229,6 +229,9 @@ TEST(RomEditSolve, TheHipOfThePaperFollowsWithinFivePercent) {
   EXPECT_LE(cells.ofUnionInStops(), 0.05);
   EXPECT_LE(cells.ofAllInStops(), 0.05);
   EXPECT_LE(cells.ofAll(), 0.05);
+  // Of the shoulder the stops are the range: the joint keeps T, so that a cone need not be a box.
+  const RomEdits shoulder = {{.joint = "shoulder_r", .cone_factor = 0.7, .twist_factor = 0.8}};
+  EXPECT_LE(full.solve(shoulder).cells.at(0).ofUnionInStops(), 0.05);
 }
 
 }  // namespace
