@@ -76,11 +76,9 @@ Json deviationJson(const LengthDeviation& deviation) {
                      {"max_norm_m", u.max_norm_m},
                      {"median_random_m", u.median_random_m},
                      {"max_random_m", u.max_random_m}});
-  return {{"norm_postures", deviation.norm_postures},
-          {"random_postures", deviation.random_postures},
-          {"exact_units", deviation.exactUnits()},
-          {"median_of_maxima_m", deviation.medianOfMaxima_m()},
-          {"units", units}};
+  return {{"norm_postures", deviation.norm_postures}, {"random_postures", deviation.random_postures},
+          {"exact_units", deviation.exactUnits()},    {"median_of_maxima_m", deviation.medianOfMaxima_m()},
+          {"boxed_ranges", deviation.boxed_ranges},   {"units", units}};
 }
 
 /// The units that are not exact, the worst first; ten of them unless all are wanted.

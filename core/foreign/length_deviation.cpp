@@ -37,6 +37,29 @@ std::vector<std::vector<double>> differences(const Model& model, const std::vect
   return off_m;
 }
 
+std::string lengthsText(const LengthDeviation& deviation) {
+  if (deviation.units.empty()) return "no muscles";
+  const UnitDeviation& worst = deviation.worst();
+  char text[320];
+  int length = std::snprintf(
+      text, sizeof text,
+      "Lengths against the original over %d postures of the adult norm and %d random ones: %d of "
+      "%zu muscles within 0.1 mm",
+      deviation.norm_postures, deviation.random_postures, deviation.exactUnits(), deviation.units.size());
+  if (!worst.isExact())
+    std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
+                  "; the others deviate by up to %.1f mm in the median, %.1f mm at most (%s)",
+                  1000 * deviation.medianOfMaxima_m(), 1000 * std::max(worst.max_norm_m, worst.max_random_m),
+                  worst.unit.c_str());
+  return text;
+}
+
+std::string boxedRangesText(const LengthDeviation& deviation) {
+  std::string names;
+  for (const std::string& joint : deviation.boxed_ranges) names += (names.empty() ? "" : ", ") + joint;
+  return names.empty() ? names : "; edited ranges are exported as the box of clinical angles about them: " + names;
+}
+
 }  // namespace
 
 bool UnitDeviation::isExact() const {
@@ -64,7 +87,7 @@ LengthDeviation lengthDeviation(const Model& model, const std::function<Eigen::V
   const auto sweeps = rangePostures(model.skeleton, kStep_deg, 0);
   const auto random = normalPostures(model.skeleton, kRandomPostures);
   const auto norm_off_m = differences(model, sweeps, theirs), random_off_m = differences(model, random, theirs);
-  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}};
+  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}, {}};
   for (std::size_t u = 0; u < model.musculature.units.size(); ++u) {
     const MusculotendonUnit& unit = model.musculature.units[u];
     UnitDeviation of{.unit = unit.name};
@@ -86,7 +109,7 @@ LengthDeviation lengthDeviation(const Model& model, const ForeignModel& foreign)
   std::vector<int> coordinate, unit;
   for (const auto& c : model.skeleton.coordinates) coordinate.push_back(foreign.coordinateIndex(c.name));
   for (const auto& u : model.musculature.units) unit.push_back(foreign.musculature.unitIndex(u.name));
-  return lengthDeviation(model, [&](const Posture& posture) {
+  LengthDeviation deviation = lengthDeviation(model, [&](const Posture& posture) {
     const Eigen::VectorXd clinical = clinicalFromPosture(model.skeleton, posture);
     ForeignPosture q = defaultPosture(foreign);
     for (std::size_t i = 0; i < coordinate.size(); ++i) q[coordinate[i]] = clinical[static_cast<Eigen::Index>(i)];
@@ -95,23 +118,13 @@ LengthDeviation lengthDeviation(const Model& model, const ForeignModel& foreign)
     for (std::size_t u = 0; u < unit.size(); ++u) length_m[static_cast<Eigen::Index>(u)] = theirs_m[unit[u]];
     return length_m;
   });
+  for (const Joint& joint : model.skeleton.joints)
+    if (!joint.edited.steps.empty()) deviation.boxed_ranges.push_back(joint.name);
+  return deviation;
 }
 
 std::string summaryText(const LengthDeviation& deviation) {
-  if (deviation.units.empty()) return "no muscles";
-  const UnitDeviation& worst = deviation.worst();
-  char text[320];
-  int length = std::snprintf(
-      text, sizeof text,
-      "Lengths against the original over %d postures of the adult norm and %d random ones: %d of "
-      "%zu muscles within 0.1 mm",
-      deviation.norm_postures, deviation.random_postures, deviation.exactUnits(), deviation.units.size());
-  if (!worst.isExact())
-    std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
-                  "; the others deviate by up to %.1f mm in the median, %.1f mm at most (%s)",
-                  1000 * deviation.medianOfMaxima_m(), 1000 * std::max(worst.max_norm_m, worst.max_random_m),
-                  worst.unit.c_str());
-  return text;
+  return lengthsText(deviation) + boxedRangesText(deviation);
 }
 
 }  // namespace sinew

@@ -21,6 +21,8 @@ struct UnitDeviation {
 struct LengthDeviation {
   int norm_postures = 0, random_postures = 0;
   std::vector<UnitDeviation> units;
+  /// Joints whose edited range the other program has as the box about it; empty if none, or if it has the range.
+  std::vector<std::string> boxed_ranges;
 
   int exactUnits() const;
   double medianOfMaxima_m() const;  ///< over the units that are not exact; 0 if all are

@@ -87,8 +87,45 @@ Segment segmentFromJson(const JsonReader& json, const Skeleton& s) {
   return segment;
 }
 
+Json editedRangeToJson(const EditedRange& range) {
+  Json steps = Json::array();
+  for (const RangeStep& s : range.steps)
+    steps.push_back({{"twist_factor", s.factor},
+                     {"twist_shift_rad", s.shift_rad},
+                     {"twist_center_rad", s.centre_rad},
+                     {"cone_factor", s.cone_factor},
+                     {"cone_center", vectorToJson(s.centre_J)},
+                     {"tilt", matrixToJson(s.tilt_J)}});
+  return {{"shaft", vectorToJson(range.shaft_J)},
+          {"stop_min_rad", vectorToJson(range.stop_min_rad)},
+          {"stop_max_rad", vectorToJson(range.stop_max_rad)},
+          {"steps", steps}};
+}
+
+EditedRange editedRangeFromJson(const JsonReader& json) {
+  json.allowOnly({"shaft", "stop_min_rad", "stop_max_rad", "steps"});
+  EditedRange range;
+  range.shaft_J = vectorFromJson(json["shaft"]);
+  if (std::abs(range.shaft_J.norm() - 1) > 1e-6) json["shaft"].fail("a unit vector");
+  range.stop_min_rad = vectorFromJson(json["stop_min_rad"]);
+  range.stop_max_rad = vectorFromJson(json["stop_max_rad"]);
+  if ((range.stop_min_rad.array() > range.stop_max_rad.array()).any()) json.fail("stops in the order lower, upper");
+  for (const JsonReader& step : json["steps"].items()) {
+    step.allowOnly({"twist_factor", "twist_shift_rad", "twist_center_rad", "cone_factor", "cone_center", "tilt"});
+    RangeStep s{.factor = step["twist_factor"].positive(),
+                .shift_rad = step["twist_shift_rad"].number(),
+                .centre_rad = step["twist_center_rad"].number(),
+                .cone_factor = step["cone_factor"].positive(),
+                .centre_J = vectorFromJson(step["cone_center"]),
+                .tilt_J = rotationFromJson(step["tilt"])};
+    if (std::abs(s.centre_J.norm() - 1) > 1e-6) step["cone_center"].fail("a unit vector");
+    range.steps.push_back(s);
+  }
+  return range;
+}
+
 void readJoint(const JsonReader& json, Skeleton& s) {
-  json.allowOnly({"name", "type", "parent", "child", "translation_m", "rotation", "coordinates"});
+  json.allowOnly({"name", "type", "parent", "child", "translation_m", "rotation", "coordinates", "edited_range"});
   Joint joint;
   joint.name = json["name"].text();
   const std::string type = json["type"].oneOf({"free", "ball", "revolute"});
@@ -104,6 +141,10 @@ void readJoint(const JsonReader& json, Skeleton& s) {
   const int index = s.movingSegmentCount();
   for (const auto& c : json["coordinates"].items(static_cast<std::size_t>(joint.coordinate_count)))
     s.coordinates.push_back(coordinateFromJson(c, index));
+  if (const auto edited = json.find("edited_range")) {
+    if (joint.type != JointType::Ball) edited->fail("a ball joint's");
+    joint.edited = editedRangeFromJson(*edited);
+  }
   s.joints.push_back(joint);
 }
 
@@ -190,6 +231,7 @@ Json skeletonToJson(const Skeleton& s) {
                       {"translation_m", vectorToJson(joint.X_PJ.translation())},
                       {"rotation", matrixToJson(joint.X_PJ.linear())},
                       {"coordinates", coordinates}});
+    if (!joint.edited.steps.empty()) joints.back()["edited_range"] = editedRangeToJson(joint.edited);
   }
   for (const Landmark& landmark : s.landmarks)
     landmarks.push_back({{"name", landmark.name},

@@ -63,6 +63,7 @@ RetargetReference::RetargetReference(Model model, std::vector<JointMotion> motio
       poses_{std::move(poses)},
       routing_{model_, motions_},
       longest_m_{longestOverPoses(model_.skeleton, model_.musculature, *poses_)},
+      ranges_{model_},
       torque_postures_{motionPostures(model_.skeleton, motions_)},
       units_of_motion_{unitsSpanning(model_, motions_)},
       peak_thetas_{peaksOf(model_.musculature, {model_, torque_postures_, units_of_motion_, motions_})} {}
@@ -110,11 +111,10 @@ Retargeted retargeted(const RetargetReference& reference, const ShapeParameters&
 
   const bool naive = options.method == RetargetMethod::Naive;
   if (!naive) {
-    std::vector<double> known_m(unchanged.size(), 0.0);
-    for (std::size_t u = 0; u < known_m.size(); ++u)
-      if (unchanged[u]) known_m[u] = previous->lengths.longest_path_m[u];
-    result.lengths = setMaximalLengths(reference.model(), reference.longest_m(), reference.poses(), result.model,
-                                       step(job, 0.6, 0.8), known_m);
+    std::optional<PreviousLengths> previous_lengths;
+    if (previous) previous_lengths.emplace(previous->lengths, unchanged);
+    result.lengths = setMaximalLengths(reference, result.model, step(job, 0.6, 0.8),
+                                       previous_lengths ? &*previous_lengths : nullptr);
     if (result.lengths.outcome == Outcome::Cancelled) return cancelled;
   }
   result.times.lengths_s = watch.lap_s();

@@ -10,6 +10,7 @@
 #include "core/model/model.h"
 #include "core/retarget/maximal_lengths.h"
 #include "core/retarget/peak_torque.h"
+#include "core/retarget/range_samples.h"
 #include "core/retarget/routing.h"
 #include "core/retarget/routing_reference.h"
 #include "core/rom/pose_set.h"
@@ -33,6 +34,7 @@ class RetargetReference {
   const PoseSet& poses() const { return *poses_; }
   const RoutingReference& routing() const { return routing_; }
   const std::vector<double>& longest_m() const { return longest_m_; }  ///< longestOverPoses()
+  const RangeSamples& ranges() const { return ranges_; }
   const PoseTable& torquePostures() const { return torque_postures_; }
   const std::vector<std::vector<int>>& unitsOfMotion() const { return units_of_motion_; }
   const std::vector<double>& peakThetas() const { return peak_thetas_; }  ///< by motion
@@ -43,6 +45,7 @@ class RetargetReference {
   std::shared_ptr<const PoseSet> poses_;
   RoutingReference routing_;
   std::vector<double> longest_m_;
+  RangeSamples ranges_;
   PoseTable torque_postures_;
   std::vector<std::vector<int>> units_of_motion_;
   std::vector<double> peak_thetas_;

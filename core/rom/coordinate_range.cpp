@@ -7,6 +7,7 @@
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/muscle_role.h"
+#include "core/rom/validity.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -32,7 +33,9 @@ class Sweep {
 
   Tightest at(double value_rad) {
     clinical_[coordinate_] = value_rad;
-    const auto X_WB = segmentPoses(model_.skeleton, postureFromClinical(model_.skeleton, clinical_));
+    const Posture q = postureFromClinical(model_.skeleton, clinical_);
+    if (beyondEditedRange(q)) return {-INFINITY, -1};
+    const auto X_WB = segmentPoses(model_.skeleton, q);
     Tightest tightest;
     for (std::size_t i = 0; i < units_.size(); ++i) {
       const auto& unit = model_.musculature.units[std::size_t(units_[i])];
@@ -59,6 +62,14 @@ class Sweep {
   }
 
  private:
+  /// The interval of a coordinate is only the box about an edited range.
+  bool beyondEditedRange(const Posture& q) const {
+    const Joint& joint = model_.skeleton.joints[std::size_t(model_.skeleton.coordinates[coordinate_].joint)];
+    if (joint.edited.steps.empty()) return false;
+    const auto R_JB = rotationFromVector<double>(q.segment<3>(joint.first_coordinate));
+    return ballStopMargin_rad(model_.skeleton, joint, R_JB) < -1e-9;
+  }
+
   const Model& model_;
   Eigen::VectorXd clinical_;
   int coordinate_;

@@ -34,6 +34,8 @@ class Movement {
     int coordinate;
     double share, stop_rad;
   };
+  /// Where the joint of a moved coordinate leaves its edited range before the coordinate's own stop.
+  double stopInEditedRange_rad(const Moved& m, double from_deg) const;
   bool halted(const Moved& m, double s_deg) const;
   double at(const Moved& m, double s_deg) const;
   std::vector<RigidTransform> poses(double s_deg, double ds_deg) const;

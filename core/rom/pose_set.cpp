@@ -184,6 +184,7 @@ PoseSet withoutOutliers(const PoseSet& set, const Skeleton& skeleton, double tol
     c.stop_min_rad = c.athlete_min_rad - tolerance_rad;
     c.stop_max_rad = c.athlete_max_rad + tolerance_rad;
   }
+  for (Joint& joint : widest.joints) joint.edited = {};
   PoseSet kept{skeleton, set.source() + "; without outliers"};
   for (std::size_t i = 0; i < set.size(); ++i) {
     const Posture q = set.posture(i);

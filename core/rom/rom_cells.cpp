@@ -3,7 +3,9 @@
 #include "core/kernel/joint_grid.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/muscle/muscle_role.h"
 #include "core/rom/rom_cells_internal.h"
+#include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
 
@@ -19,6 +21,18 @@ std::vector<int> unitsSpanning(const Skeleton& skeleton, const Musculature& musc
     if (!rigid) spanning.push_back(static_cast<int>(u));
   }
   return spanning;
+}
+
+std::vector<int> unitsOverJoint(const Model& model, int joint) {
+  if (model.skeleton.joints[joint].type == JointType::Ball)
+    return unitsSpanning(model.skeleton, model.musculature, joint);
+  const Kinematics k = clinicalKinematics(model.skeleton, zeroPosture(model.skeleton));
+  std::vector<int> units;
+  for (std::size_t u = 0; u < model.musculature.units.size(); ++u)
+    if (std::ranges::count(spannedCoordinates(model.musculature.units[u], k),
+                           model.skeleton.joints[joint].first_coordinate))
+      units.push_back(static_cast<int>(u));
+  return units;
 }
 
 CellJudge::CellJudge(const Model& model, int joint, const Posture& held)

@@ -9,6 +9,9 @@ namespace sinew {
 /// Units whose length changes with this joint: their anchors do not all move alike.
 std::vector<int> unitsSpanning(const Skeleton& skeleton, const Musculature& musculature, int joint);
 
+/// The same of any joint; a hinge's are those whose length changes with it where it is 0 (the patella moves with it).
+std::vector<int> unitsOverJoint(const Model& model, int joint);
+
 /// Whether the units that span a joint allow an orientation of it: the readable way, through the kinematics of a
 /// whole posture, in double. Decides what is close; oracle of the fast way.
 class CellJudge {

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "core/kernel/batch.h"
-#include "core/muscle/muscle_role.h"
 #include "core/rom/rom_cells_internal.h"
 #include "core/rom/rom_edit_cells_internal.h"
 #include "core/rom/twist_swing.h"
@@ -20,19 +19,6 @@ Musculature onlyUnits(const Musculature& all, const std::vector<int>& units) {
   Musculature some;
   for (const int u : units) some.units.push_back(all.units[std::size_t(u)]);
   return some;
-}
-
-/// Units whose length changes with this joint. For a ball joint those that its map asks.
-std::vector<int> unitsOver(const Model& model, int joint) {
-  if (model.skeleton.joints[joint].type == JointType::Ball)
-    return unitsSpanning(model.skeleton, model.musculature, joint);
-  const Kinematics k = clinicalKinematics(model.skeleton, zeroPosture(model.skeleton));
-  std::vector<int> units;
-  for (std::size_t u = 0; u < model.musculature.units.size(); ++u)
-    if (std::ranges::count(spannedCoordinates(model.musculature.units[u], k),
-                           model.skeleton.joints[joint].first_coordinate))
-      units.push_back(static_cast<int>(u));
-  return units;
 }
 
 ThresholdColumn sorted(const std::vector<double>& value) {
@@ -51,7 +37,7 @@ JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPost
       first_coordinate_{model.skeleton.joints[joint].first_coordinate},
       ball_{model.skeleton.joints[joint].type == JointType::Ball},
       held_{held},
-      units_{unitsOver(model, joint)},
+      units_{unitsOverJoint(model, joint)},
       compiled_{model.skeleton, onlyUnits(model.musculature, units_)} {
   const Joint& j = model.skeleton.joints[joint];
   if (ball_) {
@@ -65,7 +51,6 @@ JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPost
       for (const Eigen::Matrix3d& swing : swings) {
         const Eigen::Matrix3d R_JB = swing * twist;
         cell_vector_.push_back(vectorFromQuaternion(Eigen::Quaterniond{R_JB}));
-        readings_.push_back(clinicalReadings(model.skeleton, j, R_JB));
       }
     }
   } else {

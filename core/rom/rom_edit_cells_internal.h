@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <vector>
 
 #include "core/kernel/compiled_model.h"
@@ -30,8 +29,6 @@ class JointCells {
   const CompiledModel& compiled() const { return compiled_; }
 
   double angle_rad(std::size_t cell) const;  ///< of a hinge
-  /// Clinical angles of a cell of a ball joint under both readings.
-  const std::array<Eigen::Vector3d, 2>& readings(std::size_t cell) const { return readings_[cell]; }
 
   /// Which samples these longest lengths let through; by unit of the model.
   std::vector<std::uint8_t> allowed(const std::vector<double>& longest_m) const;
@@ -46,7 +43,6 @@ class JointCells {
   std::size_t cells_ = 0;
   double first_angle_rad_ = 0;
   std::vector<Eigen::Vector3d> cell_vector_;  ///< rotation vector of every cell of a ball joint
-  std::vector<std::array<Eigen::Vector3d, 2>> readings_;
   std::vector<int> units_;
   CompiledModel compiled_;
   std::vector<ThresholdColumn> columns_;

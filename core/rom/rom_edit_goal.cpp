@@ -1,15 +1,11 @@
 #include "core/kernel/batch.h"
 #include "core/rom/rom_edit_goal_internal.h"
-#include "core/skeleton/clinical_angles.h"
+#include "core/rom/validity.h"
 
 namespace sinew {
 namespace {
 
-std::vector<std::uint8_t> insideBox(const JointCells& cells, const StopBox& box) {
-  std::vector<std::uint8_t> inside(cells.cellCount());
-  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = box.holds(cells.readings(i));
-  return inside;
-}
+constexpr double kTolerance_rad = 1e-9;  // as maps have it
 
 /// Cells whose image is within the reference's stops.
 std::vector<std::uint8_t> wantedWithinStops(const Skeleton& skeleton, const RomTransform& transform,
@@ -20,7 +16,6 @@ std::vector<std::uint8_t> wantedWithinStops(const Skeleton& skeleton, const RomT
   std::vector<std::optional<double>> twists;
   for (int t = 0; t < RomMap::kTwists; ++t) twists.push_back(transform.twist(joint, RomMap::twist_rad(t)));
   std::vector<std::uint8_t> wanted(cells.cellCount(), 0);
-  const StopBox box = stopBoxOf(skeleton, joint);
   for (int p = 0; p < RomMap::kPolars; ++p)
     for (int a = 0; a < RomMap::kAzimuths; ++a) {
       const auto v = transform.direction(joint, map.direction_J(p, a));
@@ -29,7 +24,8 @@ std::vector<std::uint8_t> wantedWithinStops(const Skeleton& skeleton, const RomT
       for (int t = 0; t < RomMap::kTwists; ++t)
         if (twists[t])
           wanted[RomMap::cell(t, p, a)] =
-              box.holds(clinicalReadings(skeleton, j, swing * rotationAbout<double>(map.frame.shaft_J, *twists[t])));
+              ballStopMargin_rad(skeleton, j, swing * rotationAbout<double>(map.frame.shaft_J, *twists[t])) >=
+              -kTolerance_rad;
     }
   return wanted;
 }
@@ -43,11 +39,6 @@ JointGoal ballGoal(const Model& reference, const RomTransform& transform, const 
     goal.muscles.insert(goal.muscles.end(), map.valid.begin(), map.valid.end());
   }
   goal.stops = wantedWithinStops(reference.skeleton, transform, cells);
-  std::vector<double> gain;
-  for (const auto wanted : goal.stops) gain.push_back(wanted ? 1 : -1);
-  const StopBox carried = carriedStopBox(reference.skeleton, transform, joint);
-  goal.box = fittedStopBox(cells, gain, carried, stopBoxOf(reference.skeleton, joint), carried);
-  goal.inside = insideBox(cells, goal.box);
   return goal;
 }
 
@@ -80,7 +71,6 @@ JointGoal hingeGoal(const Model& reference, const RomTransform& transform, const
   judgeHinge(reference, transform, goal);
   for (std::size_t i = 0; i < cells.cellCount(); ++i)
     goal.stops.push_back(cells.angle_rad(i) >= goal.hinge.min_rad && cells.angle_rad(i) <= goal.hinge.max_rad);
-  goal.inside = goal.stops;
   return goal;
 }
 
@@ -88,19 +78,6 @@ JointGoal hingeGoal(const Model& reference, const RomTransform& transform, const
 
 JointGoal goalOf(const Model& reference, const RomTransform& transform, const JointCells& cells) {
   return cells.isBall() ? ballGoal(reference, transform, cells) : hingeGoal(reference, transform, cells);
-}
-
-void refineStops(const Model& reference, const RomTransform& transform, const std::vector<std::uint8_t>& allowed,
-                 JointGoal& goal) {
-  const JointCells& cells = *goal.cells;
-  if (!cells.isBall()) return;
-  std::vector<double> gain(cells.cellCount(), 0);
-  for (std::size_t s = 0; s < allowed.size(); ++s)
-    if (allowed[s])
-      gain[s % cells.cellCount()] += cells.held()[s / cells.cellCount()].weight * (goal.isWanted(s) ? 1 : -1);
-  goal.box = fittedStopBox(cells, gain, goal.box, stopBoxOf(reference.skeleton, cells.joint()),
-                           carriedStopBox(reference.skeleton, transform, cells.joint()));
-  goal.inside = insideBox(cells, goal.box);
 }
 
 }  // namespace sinew

@@ -31,7 +31,7 @@ void appendSamples(const JointGoal& goal, double weight_alone, ThresholdProblem&
   const JointCells& cells = *goal.cells;
   for (std::size_t s = 0; s < cells.sampleCount(); ++s) {
     const std::size_t cell = s % cells.cellCount();
-    const double together = goal.inside[cell] ? (goal.isWanted(s) ? 1 : -1) : 0;
+    const double together = goal.stops[cell] ? (goal.isWanted(s) ? 1 : -1) : 0;
     // Beyond the stops every fourth cell stands for four.
     const double share = together != 0 || !cells.isBall() ? 1 : isOfLattice(cell) ? 4 : 0;
     const double worth = together + share * weight_alone * (goal.muscles[s] ? 1 : -1);

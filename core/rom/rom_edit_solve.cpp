@@ -7,6 +7,7 @@
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
 #include "core/rom/rom_edit_problem_internal.h"
+#include "core/rom/rom_edit_stops_internal.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -49,7 +50,7 @@ RomEditCells countedCells(const Skeleton& skeleton, const JointGoal& goal, const
     c.wanted += wanted;
     c.differing += wanted != got;
     c.either += wanted || got;
-    const bool wanted_in = wanted && goal.stops[i], got_in = got && goal.inside[i];
+    const bool wanted_in = wanted && goal.stops[i], got_in = got && goal.stops[i];
     c.wanted_in_stops += wanted_in;
     c.differing_in_stops += wanted_in != got_in;
     c.either_in_stops += wanted_in || got_in;
@@ -71,11 +72,14 @@ void setStop(Skeleton& skeleton, int coordinate, double min_rad, double max_rad,
   c.stop_max_rad = max_rad;
 }
 
-void setStops(const JointGoal& goal, RomEditResult& result) {
+/// A hinge's interval moves; a ball joint remembers T, and its coordinates the box about the new range.
+void setStops(const JointGoal& goal, const RomTransform& transform, RomEditResult& result) {
   Skeleton& skeleton = result.model.skeleton;
-  const int first = skeleton.joints[goal.cells->joint()].first_coordinate;
+  const int joint = goal.cells->joint(), first = skeleton.joints[joint].first_coordinate;
   if (!goal.cells->isBall()) return setStop(skeleton, first, goal.hinge.min_rad, goal.hinge.max_rad, result);
-  for (int i = 0; i < 3; ++i) setStop(skeleton, first + i, goal.box.min_rad[i], goal.box.max_rad[i], result);
+  skeleton.joints[joint].edited = transform.editedRange(joint);
+  const StopBox box = boxAbout(skeleton, joint, skeleton.joints[joint].edited);
+  for (int i = 0; i < 3; ++i) setStop(skeleton, first + i, box.min_rad[i], box.max_rad[i], result);
 }
 
 void setLength(Model& model, int unit, double factor, std::vector<RomEditChange>& changed) {
@@ -134,12 +138,12 @@ struct RomEditSolver::State {
     return factors;
   }
 
-  std::vector<double> sinewFactors(std::vector<JointGoal>& goals, const RomTransform& transform,
-                                   const std::vector<int>& units, const std::vector<double>& paper,
-                                   const RomEditOptions& options, const Job& job) const;
+  std::vector<double> sinewFactors(const std::vector<JointGoal>& goals, const std::vector<int>& units,
+                                   const std::vector<double>& paper, const RomEditOptions& options,
+                                   const Job& job) const;
 };
 
-std::vector<double> RomEditSolver::State::sinewFactors(std::vector<JointGoal>& goals, const RomTransform& transform,
+std::vector<double> RomEditSolver::State::sinewFactors(const std::vector<JointGoal>& goals,
                                                        const std::vector<int>& units,
                                                        const std::vector<double>& paper,
                                                        const RomEditOptions& options, const Job& job) const {
@@ -152,12 +156,8 @@ std::vector<double> RomEditSolver::State::sinewFactors(std::vector<JointGoal>& g
   }
   const ThresholdFit fit = fitThresholds(joined.problem, {by_paper_m, longest_m}, longest_m, by_paper_m, job);
   if (fit.outcome != Outcome::Converged) return {};
-  std::vector<double> all_m = longestLengths_m(reference.musculature), factors;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    all_m[std::size_t(units[i])] = fit.threshold[i];
-    factors.push_back(fit.threshold[i] / longest_m[i]);
-  }
-  for (JointGoal& goal : goals) refineStops(reference, transform, goal.cells->allowed(all_m), goal);
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < units.size(); ++i) factors.push_back(fit.threshold[i] / longest_m[i]);
   return factors;
 }
 
@@ -202,12 +202,12 @@ RomEditResult RomEditSolver::solve(const RomEdits& edits, const RomEditOptions& 
   if (goals.empty()) return result;
   std::vector<double> factors = state_->paperFactors(transform, units, job);
   if (!job.cancelled() && options.method == RomEditMethod::Sinew)
-    factors = state_->sinewFactors(goals, transform, units, factors, options, job);
+    factors = state_->sinewFactors(goals, units, factors, options, job);
   if (job.cancelled()) return cancelled;
   for (std::size_t i = 0; i < units.size(); ++i) setLength(result.model, units[i], factors[i], result.changed);
   const auto longest_m = longestLengths_m(result.model.musculature);
   for (const JointGoal& goal : goals) {
-    setStops(goal, result);
+    setStops(goal, transform, result);
     const auto allowed = goal.cells->allowed(longest_m);
     for (std::size_t slice = 0; slice < goal.cells->held().size(); ++slice)
       result.cells.push_back(countedCells(reference.skeleton, goal, allowed, slice));

@@ -158,6 +158,7 @@ std::vector<SidedBound> sidedBounds(const Skeleton& skeleton, const RomPreset& p
 }
 
 void setStops(Skeleton& skeleton, const RomPreset& preset) {
+  for (Joint& joint : skeleton.joints) joint.edited = {};
   for (const SidedBound& bound : sidedBounds(skeleton, preset)) {
     if (bound.terms.size() > 1) continue;
     const auto [index, sense] = bound.terms[0];

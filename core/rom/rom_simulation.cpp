@@ -6,6 +6,7 @@
 #include "core/muscle/muscle_path.h"
 #include "core/rom/movement_internal.h"
 #include "core/rom/rom_preset.h"
+#include "core/rom/validity.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -25,12 +26,36 @@ Movement::Movement(const Model& model, const RomTest& test, char side)
     Moved m{sidedCoordinate(model.skeleton, name, side), share, 0};
     const Coordinate& c = model.skeleton.coordinates[m.coordinate];
     m.stop_rad = share * direction_ > 0 ? c.stop_max_rad : c.stop_min_rad;
-    const double stop_deg = m.stop_rad * kDegPerRad / share;
-    if ((stop_deg - end_deg_) * direction_ > 0) end_deg_ = stop_deg;
     moved_.push_back(m);
   }
+  std::vector<Moved> moved = moved_;
+  for (Moved& m : moved) {
+    m.stop_rad = stopInEditedRange_rad(m, test.from_deg);
+    const double stop_deg = m.stop_rad * kDegPerRad / m.share;
+    if ((stop_deg - end_deg_) * direction_ > 0) end_deg_ = stop_deg;
+  }
+  moved_ = std::move(moved);
   if ((end_deg_ - test.to_deg) * direction_ > 0) end_deg_ = test.to_deg;
   keepThoseThatStretch(test.from_deg);
+}
+
+double Movement::stopInEditedRange_rad(const Moved& m, double from_deg) const {
+  const Skeleton& skeleton = model_.skeleton;
+  const Joint& joint = skeleton.joints[static_cast<std::size_t>(skeleton.coordinates[m.coordinate].joint)];
+  if (joint.edited.steps.empty()) return m.stop_rad;
+  const auto holds = [&](double s_deg) {
+    const Posture q = postureFromClinical(skeleton, clinical(s_deg));
+    const auto R_JB = rotationFromVector<double>(q.segment<3>(joint.first_coordinate));
+    return ballStopMargin_rad(skeleton, joint, R_JB) >= -1e-9;
+  };
+  double inside = from_deg, outside = from_deg;
+  while (!halted(m, outside) && holds(outside)) inside = outside, outside += direction_ * kStep_deg;
+  if (holds(outside)) return m.stop_rad;
+  while (std::abs(outside - inside) > 1e-3) {
+    const double middle = 0.5 * (inside + outside);
+    (holds(middle) ? inside : outside) = middle;
+  }
+  return m.share * inside / kDegPerRad;
 }
 
 Eigen::VectorXd Movement::clinical(double s_deg) const {

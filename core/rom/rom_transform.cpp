@@ -1,33 +1,12 @@
 #include "core/rom/rom_transform.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/rom/rom_map.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kHalfTurn_rad = kPi - 1e-6;  // as far as an image is clamped: the reverse has no direction
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2 * kPi);
-}
-
-/// `v` with its angle to `centre` replaced, on the same great circle.
-Eigen::Vector3d atAngle(const Eigen::Vector3d& centre, const Eigen::Vector3d& v, double angle_rad) {
-  const Eigen::Vector3d across = v - centre * centre.dot(v);
-  const double length = across.norm();
-  if (length < 1e-12) return v;
-  return std::cos(angle_rad) * centre + (std::sin(angle_rad) / length) * across;
-}
-
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 std::vector<Eigen::Vector3d> shafts(const Skeleton& skeleton) {
   std::vector<Eigen::Vector3d> shaft_J;
@@ -80,7 +59,7 @@ RomTransform::RomTransform(const Skeleton& skeleton, const RomCentres& centres, 
     if (e.isIdentity()) continue;
     const int j = skeleton.jointIndex(e.joint);
     const bool hinge = skeleton.joints[j].type == JointType::Revolute;
-    Step step;
+    RangeStep step;
     step.factor = hinge ? e.range_factor : e.twist_factor;
     step.shift_rad = hinge ? e.shift_rad : twistSign(skeleton, j) * e.twist_shift_rad;
     step.cone_factor = e.cone_factor;
@@ -89,7 +68,7 @@ RomTransform::RomTransform(const Skeleton& skeleton, const RomCentres& centres, 
       step.centre_rad = hinge ? centres.angle_rad[j] : centres.twist_rad[j];
       step.centre_J = centres.direction_J[j];
     } else {
-      const Step& before = steps_[j].back();
+      const RangeStep& before = steps_[j].back();
       step.centre_rad = before.centre_rad + before.shift_rad;
       step.centre_J = before.tilt_J * before.centre_J;
     }
@@ -99,39 +78,20 @@ RomTransform::RomTransform(const Skeleton& skeleton, const RomCentres& centres, 
     if (!steps_[j].empty()) joints_.push_back(static_cast<int>(j));
 }
 
-// V~ of the last edit is V~ of those before it at T of the last: the newest is applied to a posture first.
-
 double RomTransform::hinge(int joint, double angle_rad) const {
-  for (auto s = steps_[joint].rbegin(); s != steps_[joint].rend(); ++s)
-    angle_rad = s->centre_rad + std::clamp((angle_rad - s->centre_rad - s->shift_rad) / s->factor, -kPi, kPi);
-  return angle_rad;
+  return hingeImage(steps_[joint], angle_rad);
 }
 
 double RomTransform::hingeInverse(int joint, double angle_rad) const {
-  for (const Step& s : steps_[joint]) angle_rad = s.centre_rad + s.shift_rad + s.factor * (angle_rad - s.centre_rad);
-  return angle_rad;
+  return hingePreimage(steps_[joint], angle_rad);
 }
 
 std::optional<double> RomTransform::twist(int joint, double twist_rad) const {
-  for (auto s = steps_[joint].rbegin(); s != steps_[joint].rend(); ++s) {
-    if (s->factor == 1 && s->shift_rad == 0) continue;
-    const double from_centre = wrapped(twist_rad - s->centre_rad - s->shift_rad) / s->factor;
-    if (std::abs(from_centre) > kPi) return std::nullopt;
-    twist_rad = wrapped(s->centre_rad + from_centre);
-  }
-  return twist_rad;
+  return twistImage(steps_[joint], twist_rad);
 }
 
 std::optional<Eigen::Vector3d> RomTransform::direction(int joint, const Eigen::Vector3d& direction_J) const {
-  Eigen::Vector3d v = direction_J;
-  for (auto s = steps_[joint].rbegin(); s != steps_[joint].rend(); ++s) {
-    v = s->tilt_J.transpose() * v;
-    if (s->cone_factor == 1) continue;
-    const double angle = angleBetween(s->centre_J, v) / s->cone_factor;
-    if (angle > kPi) return std::nullopt;
-    v = atAngle(s->centre_J, v, angle);
-  }
-  return v;
+  return directionImage(steps_[joint], direction_J);
 }
 
 std::optional<TwistSwing> RomTransform::ball(int joint, const TwistSwing& orientation) const {
@@ -142,18 +102,21 @@ std::optional<TwistSwing> RomTransform::ball(int joint, const TwistSwing& orient
 }
 
 TwistSwing RomTransform::ballInverse(int joint, const TwistSwing& orientation) const {
-  TwistSwing o = orientation;
-  for (const Step& s : steps_[joint]) {
-    if (s.factor != 1 || s.shift_rad != 0)
-      o.twist_rad =
-          wrapped(s.centre_rad + s.shift_rad +
-                  std::clamp(s.factor * wrapped(o.twist_rad - s.centre_rad), -kHalfTurn_rad, kHalfTurn_rad));
-    if (s.cone_factor != 1)
-      o.direction_J = atAngle(s.centre_J, o.direction_J,
-                              std::min(s.cone_factor * angleBetween(s.centre_J, o.direction_J), kHalfTurn_rad));
-    o.direction_J = s.tilt_J * o.direction_J;
+  return ballPreimage(steps_[joint], orientation);
+}
+
+EditedRange RomTransform::editedRange(int joint) const {
+  const Joint& j = skeleton_->joints[joint];
+  EditedRange range = j.edited;
+  if (range.steps.empty()) {
+    range.shaft_J = shaft_J_[joint];
+    for (int i = 0; i < 3; ++i) {
+      range.stop_min_rad[i] = skeleton_->coordinates[j.first_coordinate + i].stop_min_rad;
+      range.stop_max_rad[i] = skeleton_->coordinates[j.first_coordinate + i].stop_max_rad;
+    }
   }
-  return o;
+  range.steps.insert(range.steps.end(), steps_[joint].begin(), steps_[joint].end());
+  return range;
 }
 
 std::optional<Posture> RomTransform::apply(const Posture& q, int except_joint) const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/rom/pose_set.h"
+#include "core/rom/range_image.h"
 #include "core/rom/rom_edit.h"
 #include "core/rom/twist_swing.h"
 
@@ -40,6 +41,9 @@ class RomTransform {
   std::optional<double> twist(int joint, double twist_rad) const;
   std::optional<Eigen::Vector3d> direction(int joint, const Eigen::Vector3d& direction_J) const;
 
+  /// The range of an edited ball joint: that of the reference, which may be an edited one itself, at T.
+  EditedRange editedRange(int joint) const;
+
   /// T(q); nullopt where T has no image. V~(q) = V(T(q)). One joint may be left as it is (a map moves it itself).
   std::optional<Posture> apply(const Posture& q, int except_joint = -1) const;
   /// A posture that T takes to `q`.
@@ -48,14 +52,8 @@ class RomTransform {
   void invert(Eigen::Ref<Posture> q) const;
 
  private:
-  struct Step {
-    double factor = 1, shift_rad = 0, centre_rad = 0;  ///< hinge angle, or twist
-    double cone_factor = 1;
-    Eigen::Vector3d centre_J = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d tilt_J = Eigen::Matrix3d::Identity();
-  };
   const Skeleton* skeleton_;
-  std::vector<std::vector<Step>> steps_;  ///< by joint, in the order of the edits
+  std::vector<RangeSteps> steps_;         ///< by joint, in the order of the edits
   std::vector<Eigen::Vector3d> shaft_J_;  ///< by joint
   std::vector<int> joints_;
 };

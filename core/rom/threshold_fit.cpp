@@ -156,6 +156,18 @@ class Descent {
   std::vector<std::size_t> accepted_;
 };
 
+/// Thresholds as lengths, as near to the reference as the error that was reached allows.
+void settle(Descent& descent, const std::vector<double>& reference, const std::vector<double>& preferred,
+            ThresholdFit& fit) {
+  fit.threshold.resize(reference.size());
+  for (std::size_t c = 0; c < reference.size(); ++c) {
+    fit.threshold[c] = descent.bestValue(c, reference[c], preferred[c]);
+    descent.set(c, fit.threshold[c]);
+  }
+  fit.error = double(descent.error()) * kWeightUnit;
+  fit.outcome = Outcome::Converged;
+}
+
 /// Largest wanted value of every column: no threshold above it is better than itself.
 std::vector<double> outerBounds(const ThresholdProblem& problem) {
   std::vector<double> bounds;
@@ -208,6 +220,16 @@ double thresholdError(const ThresholdProblem& problem, const std::vector<double>
   return double(d.error()) * kWeightUnit;
 }
 
+ThresholdFit descendThresholds(const ThresholdProblem& problem, const std::vector<double>& start, const Job& job) {
+  Descent descent{problem};
+  for (std::size_t c = 0; c < start.size(); ++c) descent.set(c, start[c]);
+  descent.descendInOrder(false, job);
+  ThresholdFit fit{.outcome = Outcome::Cancelled};
+  if (job.cancelled()) return fit;
+  settle(descent, start, start, fit);
+  return fit;
+}
+
 ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<std::vector<double>>& starts,
                            const std::vector<double>& reference, const std::vector<double>& preferred,
                            const Job& job) {
@@ -233,19 +255,14 @@ ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<st
     fit.outcome = Outcome::Cancelled;
     return fit;
   }
-  // In the whole problem: thresholds as lengths, as near to the reference as the error allows.
+  // In the whole problem.
   Descent whole{problem};
   for (std::size_t c = 0; c < columns; ++c) {
     const auto& value = small.columns[c].value;
     fit.threshold.push_back(best[c] == value.size() ? bounds[c] : best[c] > 0 ? value[best[c] - 1] : -kInfinity);
     whole.set(c, fit.threshold[c]);
   }
-  for (std::size_t c = 0; c < columns; ++c) {
-    fit.threshold[c] = whole.bestValue(c, reference[c], preferred[c]);
-    whole.set(c, fit.threshold[c]);
-  }
-  fit.error = double(whole.error()) * kWeightUnit;
-  fit.outcome = Outcome::Converged;
+  settle(whole, reference, preferred, fit);
   return fit;
 }
 

@@ -37,6 +37,11 @@ ThresholdFit fitThresholds(const ThresholdProblem& problem, const std::vector<st
                            const std::vector<double>& reference, const std::vector<double>& preferred,
                            const Job& job = {});
 
+/// From one start, columns in their order alone: to where no single column can gain anything. Every column that it
+/// costs nothing keeps its start, bit for bit; another takes the best value nearest to it. Quick, for many columns.
+ThresholdFit descendThresholds(const ThresholdProblem& problem, const std::vector<double>& start,
+                               const Job& job = {});
+
 /// Weight of the wrong samples.
 double thresholdError(const ThresholdProblem& problem, const std::vector<double>& threshold);
 

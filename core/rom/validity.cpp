@@ -1,9 +1,11 @@
 #include "core/rom/validity.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/rom/range_image.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -15,13 +17,26 @@ ConstraintMargin stopMargin(const Coordinate& c, int index, double value_rad) {
   return {ConstraintKind::JointStop, index, above <= below, margin, margin};
 }
 
-/// Margins of the coordinates of one ball joint under one reading of its orientation.
+/// Margins of the coordinates of one ball joint under one reading of its orientation; of an edited range those of its
+/// image within the stops before.
 std::vector<ConstraintMargin> margins(const Skeleton& skeleton, const Joint& joint, const Eigen::Vector3d& angles) {
   std::vector<ConstraintMargin> result;
   for (int i = 0; i < 3; ++i) {
     const int index = joint.first_coordinate + i;
-    result.push_back(stopMargin(skeleton.coordinates[index], index, angles[i]));
+    Coordinate c = skeleton.coordinates[index];
+    if (!joint.edited.steps.empty())
+      c.stop_min_rad = joint.edited.stop_min_rad[i], c.stop_max_rad = joint.edited.stop_max_rad[i];
+    result.push_back(stopMargin(c, index, angles[i]));
   }
+  return result;
+}
+
+/// Of an orientation that is no image of any: as far outside as can be.
+std::vector<ConstraintMargin> noMargins(const Joint& joint) {
+  std::vector<ConstraintMargin> result;
+  for (int i = 0; i < 3; ++i)
+    result.push_back(
+        {ConstraintKind::JointStop, joint.first_coordinate + i, true, -std::numbers::pi, -std::numbers::pi});
   return result;
 }
 
@@ -30,7 +45,12 @@ double least(const std::vector<ConstraintMargin>& margins) {
 }
 
 /// Under the reading that lies deeper inside the stops.
-std::vector<ConstraintMargin> ballMargins(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB) {
+std::vector<ConstraintMargin> ballMargins(const Skeleton& skeleton, const Joint& joint, Eigen::Matrix3d R_JB) {
+  if (!joint.edited.steps.empty()) {
+    const auto image = ballImage(joint.edited, R_JB);
+    if (!image) return noMargins(joint);
+    R_JB = *image;
+  }
   const auto readings = clinicalReadings(skeleton, joint, R_JB);
   const auto one = margins(skeleton, joint, readings[0]), other = margins(skeleton, joint, readings[1]);
   return least(one) >= least(other) ? one : other;

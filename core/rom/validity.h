@@ -37,7 +37,9 @@ std::vector<ConstraintMargin> constraintMargins(const Skeleton& skeleton, const 
 /// stops: beyond 90 deg of the middle angle (arm above the head) the usual reading flips.
 std::vector<ConstraintMargin> stopMargins(const Skeleton& skeleton, const Posture& posture);
 
-/// The least of a ball joint whose child is turned by R_JB, under the better reading [rad].
+/// The least of a ball joint whose child is turned by R_JB, under the better reading [rad]. Of a joint whose range
+/// was edited it is that of T of the orientation within the stops before (core/skeleton/edited_range.h): what maps,
+/// clinical ranges and tests ask too.
 double ballStopMargin_rad(const Skeleton& skeleton, const Joint& joint, const Eigen::Matrix3d& R_JB);
 
 Validity validity(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/rigid_transform.h"
+#include "core/skeleton/edited_range.h"
 
 namespace sinew {
 
@@ -37,6 +38,7 @@ struct Joint {
   RigidTransform X_PJ = RigidTransform::Identity();  ///< child frame in the parent frame at the zero posture
   int first_coordinate = 0;                          ///< index into q
   int coordinate_count = 0;                          ///< 6, 3 or 1
+  EditedRange edited = {};                           ///< of a ball joint whose range was edited
 };
 
 struct Segment {

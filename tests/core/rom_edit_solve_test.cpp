@@ -80,6 +80,12 @@ TEST(ThresholdFit, FindsTheLimitsOfABoxOfSamples) {
   EXPECT_EQ(fit.threshold[1], 6.25);                 // was right, stays bit for bit
   EXPECT_EQ(fit.threshold[2], 20);                   // does not matter, stays
   EXPECT_EQ(thresholdError(p, {4.5, 6.25, 20}), 7);  // x = 4 passes, seven times
+  const ThresholdFit quick = descendThresholds(p, reference);
+  EXPECT_EQ(quick.error, 0);
+  EXPECT_NEAR(quick.threshold[0], 4, 2e-5);  // as near to where it began as x <= 3 allows
+  EXPECT_LT(quick.threshold[0], 4);
+  EXPECT_EQ(quick.threshold[1], 6.25);
+  EXPECT_EQ(quick.threshold[2], 20);
 }
 
 TEST(RomEditSolve, AHingeHeldByAStringFollowsExactly) {
@@ -223,6 +229,9 @@ TEST(RomEditSolve, TheHipOfThePaperFollowsWithinFivePercent) {
   EXPECT_LE(cells.ofUnionInStops(), 0.05);
   EXPECT_LE(cells.ofAllInStops(), 0.05);
   EXPECT_LE(cells.ofAll(), 0.05);
+  // Of the shoulder the stops are the range: the joint keeps T, so that a cone need not be a box.
+  const RomEdits shoulder = {{.joint = "shoulder_r", .cone_factor = 0.7, .twist_factor = 0.8}};
+  EXPECT_LE(full.solve(shoulder).cells.at(0).ofUnionInStops(), 0.05);
 }
 
 }  // namespace
