@@ -1,10 +1,8 @@
 #include "core/experiments/disorders.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/experiments/experiment_shapes.h"
-#include "core/muscle/muscle_path.h"
 
 namespace sinew {
 namespace {
@@ -17,28 +15,6 @@ std::vector<Poses> posesOver(const Skeleton& skeleton, const JointMotion& motion
   for (int s = 0; s <= steps; ++s)
     poses.push_back(segmentPoses(skeleton, motionPosture(skeleton, motion, double(s) / steps)));
   return poses;
-}
-
-std::vector<double> lengthsOver(const MusculotendonUnit& unit, const std::vector<Poses>& poses) {
-  std::vector<double> lengths_m;
-  for (const Poses& X_WB : poses) lengths_m.push_back(pathLength(unit, X_WB));
-  return lengths_m;
-}
-
-struct StepCount {
-  int reversed = 0, directed = 0;
-};
-
-void countReversals(const std::vector<double>& wanted_m, const std::vector<double>& found_m, StepCount& count) {
-  const auto [low_m, high_m] = std::ranges::minmax(wanted_m);
-  // kReversalShare is of the range for steps of the routing's samples; ours are shorter.
-  const double matters_m = kReversalShare * (high_m - low_m) * (kRoutingSamples - 1) / double(wanted_m.size() - 1);
-  for (std::size_t s = 0; s + 1 < wanted_m.size(); ++s) {
-    const double wanted = wanted_m[s + 1] - wanted_m[s], found = found_m[s + 1] - found_m[s];
-    if (std::abs(wanted) < matters_m) continue;
-    ++count.directed;
-    count.reversed += wanted * found < 0;
-  }
 }
 
 }  // namespace
@@ -55,11 +31,12 @@ std::vector<double> reversalShares(const RetargetReference& reference, const Mod
       const ReferenceCurves& curves = routing.curves(u);
       const auto at = std::ranges::find(curves.motions, static_cast<int>(m));
       if (at == curves.motions.end() || curves.significance[std::size_t(at - curves.motions.begin())] == 0) continue;
-      countReversals(lengthsOver(units[u], before), lengthsOver(body.musculature.units[u], now), counts[u]);
+      countReversals(stepDirections(lengthsOver(units[u], before)), lengthsOver(body.musculature.units[u], now),
+                     counts[u]);
     }
   }
   std::vector<double> shares;
-  for (const StepCount& c : counts) shares.push_back(c.directed ? double(c.reversed) / c.directed : 0);
+  for (const StepCount& c : counts) shares.push_back(c.share());
   return shares;
 }
 

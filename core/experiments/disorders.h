@@ -7,10 +7,8 @@
 
 namespace sinew {
 
-// Ryu et al., Muscle Routing Evaluation: functional disorders, "increasing-to-decreasing and vice versa", of the
-// length-angle curves. Of every unit and motion that it is significant in (RoutingReference), the curve is cut into
-// steps; those that are more than a small share of its range have a direction. A disorder is such a
-// step that goes the other way in the new body.
+// Ryu et al., Muscle Routing Evaluation: functional disorders, the reversed steps (core/retarget/reversals.h) of
+// every unit's length-angle curves over the motions that it is significant in (RoutingReference).
 
 /// Share of reversed steps among those with a direction, by unit of the reference, over all its motions together.
 /// 0 for a unit without any.
@@ -28,7 +26,7 @@ struct Disorders {
 };
 
 struct DisorderOptions {
-  int steps = 40;  ///< routing itself looks at kRoutingSamples - 1
+  int steps = kReversalSteps;
   std::vector<double> elongations = {0.6, 0.8, 0.9, 1.0, 1.1, 1.3, 1.6, 2.0, 2.5};
 };
 Disorders disorders(const RetargetReference& reference, const DisorderOptions& options = {}, const Job& job = {});

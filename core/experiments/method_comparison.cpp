@@ -5,6 +5,8 @@
 #include <ctime>
 #include <utility>
 
+#include "core/experiments/disorders.h"
+
 namespace sinew {
 namespace {
 
@@ -23,6 +25,7 @@ class MethodClock {
 struct Routed {
   std::vector<UnitRouting> units;
   MethodTime time;
+  std::vector<double> reversed;
 };
 
 /// Empty if cancelled.
@@ -30,7 +33,8 @@ Routed routed(const RetargetReference& reference, const Model& naive, RetargetMe
   Model model = naive;
   const MethodClock clock;
   Routing routing = route(reference.model(), reference.routing(), model, {.method = method}, {.stop = job.stop});
-  return {std::move(routing.units), clock.read()};
+  const MethodTime time = clock.read();
+  return {std::move(routing.units), time, reversalShares(reference, model, kReversalSteps)};
 }
 
 struct Whole {
@@ -66,12 +70,14 @@ void judge(const std::vector<std::string>& units, const BodyComparison& body, En
     if (start < kNothing) continue;
     ++v.compared;
     const double difference = sinew - paper;
-    if (std::abs(difference) <= kRounding * start)
-      ++v.equal;
-    else
-      ++(difference < 0 ? v.lower : v.higher);
+    const bool equal = std::abs(difference) <= kRounding * start;
+    ++(equal ? v.equal : difference < 0 ? v.lower : v.higher);
+    v.equal_at_start += equal && start - sinew <= kRounding * start;
     if (difference <= kRounding * start) continue;
-    v.higher_by_one_percent += sinew > 1.01 * paper;
+    if (sinew > 1.01 * paper) {
+      ++v.higher_by_one_percent;
+      v.higher_for_order += body.paper_reversed[u] > body.sinew_reversed[u];
+    }
     if (sinew / paper > v.worst_ratio) v.worst_ratio = sinew / paper, v.worst_unit = units[u] + ", " + body.name;
   }
 }
@@ -92,8 +98,9 @@ MethodComparison compareMethods(const RetargetReference& reference, const std::v
     if (job.cancelled()) return {.outcome = Outcome::Cancelled};
     result.bodies.push_back({shape.name, totals(sinew.units, &UnitRouting::start),
                              totals(paper.units, &UnitRouting::end), totals(sinew.units, &UnitRouting::end),
-                             paperEnergy(paper.units), paperEnergy(sinew.units), paper.time, sinew.time,
-                             whole_paper.time, whole_sinew.time, whole_paper.peaks, whole_sinew.peaks});
+                             paper.reversed, sinew.reversed, paperEnergy(paper.units), paperEnergy(sinew.units),
+                             paper.time, sinew.time, whole_paper.time, whole_sinew.time, whole_paper.peaks,
+                             whole_sinew.peaks});
   }
   result.outcome = Outcome::Converged;
   return result;

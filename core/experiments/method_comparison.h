@@ -24,9 +24,10 @@ struct MethodTime {
 
 struct BodyComparison {
   std::string name;
-  std::vector<double> start, paper, sinew;  ///< total energy by unit
-  double paper_energy_paper = 0,            ///< E_direction + w_l E_length, all units: reached by `paper`,
-      paper_energy_sinew = 0;               ///< by `sinew`
+  std::vector<double> start, paper, sinew;             ///< total energy by unit
+  std::vector<double> paper_reversed, sinew_reversed;  ///< reversalShares()
+  double paper_energy_paper = 0,                       ///< E_direction + w_l E_length, all units: reached by `paper`,
+      paper_energy_sinew = 0;                          ///< by `sinew`
   MethodTime routing_paper, routing_sinew;
   MethodTime whole_paper, whole_sinew;        ///< all steps
   PeakTorqueTotals peaks_paper, peaks_sinew;  ///< of each method's own routing
@@ -36,6 +37,9 @@ struct BodyComparison {
 /// millionth of the start.
 struct EnergyVerdict {
   int compared = 0, lower = 0, equal = 0, higher = 0, higher_by_one_percent = 0;
+  int equal_at_start = 0;  ///< of the equal: neither found anything lower than the start
+  /// Of those higher by one per cent: the other method's muscle reverses more steps of its length-angle curves.
+  int higher_for_order = 0;
   double worst_ratio = 0;  ///< largest sinew / paper
   std::string worst_unit;
   double sum_start = 0, sum_paper = 0, sum_sinew = 0;

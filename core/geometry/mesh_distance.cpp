@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -49,17 +50,17 @@ struct Box {
     low = low.cwiseMin(other.low);
     high = high.cwiseMax(other.high);
   }
-  double squaredDistance(const Vector3d& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0).squaredNorm(); }
-  bool contains(const Vector3d& p) const {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  void include(const Vector3d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-};
-
-struct Face {
-  std::array<Vector3d, 3> corner;
-  std::array<Vector3d, 7> pseudonormal;  ///< by feature, not normalised
-  Box box() const {
-    return {corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]), corner[0].cwiseMax(corner[1]).cwiseMax(corner[2])};
+  double squaredDistance(const Vector3d& p) const {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double beyond = std::max({low[i] - p[i], p[i] - high[i], 0.0});
+      sum += beyond * beyond;
+    }
+    return sum;
   }
 };
 
@@ -84,31 +85,36 @@ std::vector<std::vector<Triangle>> connectedPieces(const TriangleMesh& mesh) {
   return pieces;
 }
 
-std::vector<Face> facesOf(const std::vector<Vector3d>& vertices, const std::vector<Triangle>& triangles) {
-  std::map<std::int32_t, Vector3d> at_corner;
-  std::map<std::pair<std::int32_t, std::int32_t>, Vector3d> at_edge;
-  const auto edge = [](std::int32_t a, std::int32_t b) { return std::pair{std::min(a, b), std::max(a, b)}; };
-  std::vector<Face> faces;
-  for (const auto& t : triangles) {
-    Face face{{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, {}};
-    const Vector3d cross = (face.corner[1] - face.corner[0]).cross(face.corner[2] - face.corner[0]);
-    const Vector3d normal = cross.norm() > 0 ? Vector3d{cross.normalized()} : Vector3d::Zero();
-    face.pseudonormal[6] = normal;
+/// Triangles of one connected piece, by its own corners.
+struct Patch {
+  std::vector<std::int32_t> vertices;  ///< of the mesh, by corner
+  std::vector<Triangle> faces;
+  std::vector<int> around, first_around;  ///< faces that meet in each corner, in the mesh's order
+};
+
+Patch patchOf(const std::vector<Triangle>& triangles, std::vector<std::int32_t>& corner_of) {
+  Patch patch;
+  for (const Triangle& t : triangles) {
+    Triangle& face = patch.faces.emplace_back();
     for (int i = 0; i < 3; ++i) {
-      const Vector3d u = face.corner[(i + 1) % 3] - face.corner[i], v = face.corner[(i + 2) % 3] - face.corner[i];
-      const double angle_rad = std::atan2(u.cross(v).norm(), u.dot(v));
-      at_corner.try_emplace(t[i], Vector3d::Zero()).first->second += angle_rad * normal;
-      at_edge.try_emplace(edge(t[i], t[(i + 1) % 3]), Vector3d::Zero()).first->second += normal;
+      auto& corner = corner_of[static_cast<std::size_t>(t[i])];
+      if (corner < 0) {
+        corner = static_cast<std::int32_t>(patch.vertices.size());
+        patch.vertices.push_back(t[i]);
+      }
+      face[i] = corner;
     }
-    faces.push_back(face);
   }
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (int i = 0; i < 3; ++i) {
-      const auto& t = triangles[f];
-      faces[f].pseudonormal[i] = at_corner[t[i]];
-      faces[f].pseudonormal[3 + i] = at_edge[edge(t[i], t[(i + 1) % 3])];
-    }
-  return faces;
+  patch.first_around.assign(patch.vertices.size() + 1, 0);
+  for (const Triangle& face : patch.faces)
+    for (const auto corner : face) ++patch.first_around[static_cast<std::size_t>(corner) + 1];
+  std::partial_sum(patch.first_around.begin(), patch.first_around.end(), patch.first_around.begin());
+  std::vector<int> next = patch.first_around;
+  patch.around.resize(3 * patch.faces.size());
+  for (std::size_t f = 0; f < patch.faces.size(); ++f)
+    for (const auto corner : patch.faces[f])
+      patch.around[static_cast<std::size_t>(next[static_cast<std::size_t>(corner)]++)] = static_cast<int>(f);
+  return patch;
 }
 
 }  // namespace
@@ -121,32 +127,97 @@ struct MeshDistance::Piece {
     int left = -1, right = -1;  ///< nodes; leaf if -1
   };
   static constexpr int kLeaf = 4;
-  std::vector<Face> faces;
-  std::vector<std::array<Vector3d, 3>> corners;  ///< of the faces once more, close together
+  /// What does not change when the corners move.
+  struct Topology {
+    Patch patch;
+    std::vector<Triangle> faces;  ///< of the patch, in the order of the tree
+  };
+  std::shared_ptr<const Topology> topology;
+  std::vector<Vector3d> corners;  ///< of the patch
   std::vector<Node> nodes;
 
-  int build(int begin, int end) {
+  Piece(Patch patch, const std::vector<Vector3d>& vertices) {
+    auto made = std::make_shared<Topology>();
+    made->patch = std::move(patch);
+    std::vector<int> order(made->patch.faces.size());
+    std::iota(order.begin(), order.end(), 0);
+    nodes.reserve(order.size());
+    std::vector<Vector3d> middle;
+    for (const Triangle& face : made->patch.faces) {
+      const auto at = [&](int i) { return vertices[static_cast<std::size_t>(made->patch.vertices[face[i]])]; };
+      middle.push_back(at(0) + at(1) + at(2));
+    }
+    build(order, middle, 0, static_cast<int>(order.size()));
+    for (const int f : order) made->faces.push_back(made->patch.faces[static_cast<std::size_t>(f)]);
+    topology = std::move(made);
+    moveTo(vertices);
+  }
+
+  /// The tree, its boxes still empty.
+  int build(std::vector<int>& order, const std::vector<Vector3d>& middle, int begin, int end) {
     const int index = static_cast<int>(nodes.size());
     nodes.push_back({{}, begin, end});
-    for (int i = begin; i < end; ++i) nodes[index].box.include(faces[i].box());
     if (end - begin <= kLeaf) return index;
-    const Vector3d extent = nodes[index].box.high - nodes[index].box.low;
+    Box extent;
+    for (int i = begin; i < end; ++i) extent.include(middle[order[i]]);
     int axis = 0;
-    extent.maxCoeff(&axis);
-    const auto center = [axis](const Face& f) { return f.corner[0][axis] + f.corner[1][axis] + f.corner[2][axis]; };
-    const int middle = (begin + end) / 2;
-    std::nth_element(faces.begin() + begin, faces.begin() + middle, faces.begin() + end,
-                     [&](const Face& a, const Face& b) { return center(a) < center(b); });
-    const int left = build(begin, middle), right = build(middle, end);
+    (extent.high - extent.low).maxCoeff(&axis);
+    const int half = (begin + end) / 2;
+    std::nth_element(order.begin() + begin, order.begin() + half, order.begin() + end,
+                     [&](int a, int b) { return middle[a][axis] < middle[b][axis]; });
+    const int left = build(order, middle, begin, half), right = build(order, middle, half, end);
     nodes[index].left = left;
     nodes[index].right = right;
     return index;
   }
 
+  /// Corners and boxes; a node comes before its children.
+  void moveTo(const std::vector<Vector3d>& vertices) {
+    const std::vector<std::int32_t>& from = topology->patch.vertices;
+    corners.resize(from.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = vertices[static_cast<std::size_t>(from[i])];
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      node->box = {};
+      if (node->left >= 0) {
+        node->box.include(nodes[node->left].box);
+        node->box.include(nodes[node->right].box);
+      } else {
+        for (int i = node->begin; i < node->end; ++i)
+          for (const auto corner : topology->faces[i]) node->box.include(corners[corner]);
+      }
+    }
+  }
+
+  Vector3d normalOf(const Triangle& face) const {
+    const Vector3d cross = (corners[face[1]] - corners[face[0]]).cross(corners[face[2]] - corners[face[0]]);
+    return cross.norm() > 0 ? Vector3d{cross.normalized()} : Vector3d::Zero();
+  }
+
+  /// Not normalised; `feature` of the i-th face of the tree.
+  Vector3d pseudonormal(int i, int feature) const {
+    const Patch& patch = topology->patch;
+    const Triangle& face = topology->faces[i];
+    if (feature == 6) return normalOf(face);
+    const std::int32_t corner = face[feature % 3], other = face[(feature + 1) % 3];
+    Vector3d sum = Vector3d::Zero();
+    for (int k = patch.first_around[corner]; k < patch.first_around[corner + 1]; ++k) {
+      const Triangle& neighbour = patch.faces[patch.around[k]];
+      if (feature >= 3) {
+        if (std::ranges::count(neighbour, other)) sum += normalOf(neighbour);
+        continue;
+      }
+      const auto c = std::ranges::find(neighbour, corner) - neighbour.begin();
+      const Vector3d u = corners[neighbour[(c + 1) % 3]] - corners[corner],
+                     v = corners[neighbour[(c + 2) % 3]] - corners[corner];
+      sum += std::atan2(u.cross(v).norm(), u.dot(v)) * normalOf(neighbour);
+    }
+    return sum;
+  }
+
   Nearest nearest(const Vector3d& p) const {
     double best = std::numeric_limits<double>::infinity();
     OnTriangle on{Vector3d::Zero(), 6};
-    const Face* face = nullptr;
+    int face = 0;
     struct Waiting {
       int node;
       double squared;  // distance of its box
@@ -160,9 +231,10 @@ struct MeshDistance::Piece {
       const Node& node = nodes[next.node];
       if (node.left < 0) {
         for (int i = node.begin; i < node.end; ++i) {
-          const OnTriangle candidate = nearestOnTriangle(p, corners[i][0], corners[i][1], corners[i][2]);
+          const OnTriangle candidate = nearestOnTriangle(
+              p, corners[topology->faces[i][0]], corners[topology->faces[i][1]], corners[topology->faces[i][2]]);
           const double squared = (candidate.point - p).squaredNorm();
-          if (squared < best) best = squared, on = candidate, face = &faces[i];
+          if (squared < best) best = squared, on = candidate, face = i;
         }
         continue;
       }
@@ -172,22 +244,30 @@ struct MeshDistance::Piece {
       if (far.squared < best) stack[top++] = far;
       if (near.squared < best) stack[top++] = near;
     }
-    const Vector3d normal = face->pseudonormal[on.feature].normalized();
-    const double sign = (p - on.point).dot(face->pseudonormal[on.feature]) < 0 ? -1 : 1;
-    return {sign * std::sqrt(best), on.point, normal};
+    const Vector3d outwards = pseudonormal(face, on.feature);
+    const double sign = (p - on.point).dot(outwards) < 0 ? -1 : 1;
+    return {sign * std::sqrt(best), on.point, outwards.normalized()};
   }
 };
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) {
   require(!mesh.triangles.empty(), "MeshDistance: the mesh has triangles");
-  for (const auto& triangles : connectedPieces(mesh)) {
-    Piece piece{facesOf(mesh.vertices, triangles), {}, {}};
-    piece.nodes.reserve(piece.faces.size());
-    piece.build(0, static_cast<int>(piece.faces.size()));
-    for (const Face& face : piece.faces) piece.corners.push_back(face.corner);
-    (signedVolume_m3({mesh.vertices, triangles}) < 0 ? cavities_ : pieces_).push_back(std::move(piece));
-  }
+  std::vector<std::int32_t> corner_of(mesh.vertices.size(), -1);
+  for (const auto& triangles : connectedPieces(mesh))
+    (signedVolume_m3({mesh.vertices, triangles}) < 0 ? cavities_ : pieces_)
+        .emplace_back(patchOf(triangles, corner_of), mesh.vertices);
 }
+
+MeshDistance MeshDistance::movedTo(const std::vector<Vector3d>& vertices) const {
+  MeshDistance moved;
+  moved.pieces_ = pieces_;
+  moved.cavities_ = cavities_;
+  for (auto* pieces : {&moved.pieces_, &moved.cavities_})
+    for (Piece& piece : *pieces) piece.moveTo(vertices);
+  return moved;
+}
+
+MeshDistance::MeshDistance() = default;
 MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
@@ -209,9 +289,14 @@ MeshDistance::Nearest MeshDistance::nearest(const Vector3d& p) const {
   return best;
 }
 
+double MeshDistance::distanceAtLeast_m(const Vector3d& p) const {
+  double squared = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_) squared = std::min(squared, piece.nodes[0].box.squaredDistance(p));
+  return squared > 0 ? std::sqrt(squared) : nearest(p).distance_m;
+}
+
 double MeshDistance::depth_m(const Vector3d& p) const {
-  const bool near = std::ranges::any_of(pieces_, [&](const Piece& piece) { return piece.nodes[0].box.contains(p); });
-  return near ? std::max(0.0, -nearest(p).distance_m) : 0;
+  return std::max(0.0, -distanceAtLeast_m(p));
 }
 
 }  // namespace sinew

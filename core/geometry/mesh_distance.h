@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "core/geometry/triangle_mesh.h"
 
@@ -23,12 +24,19 @@ class MeshDistance {
   MeshDistance(MeshDistance&&) noexcept;
   MeshDistance& operator=(MeshDistance&&) noexcept;
 
+  /// The same triangles with the vertices of the mesh elsewhere, much sooner than made anew: the tree stays.
+  MeshDistance movedTo(const std::vector<Eigen::Vector3d>& vertices) const;
+
   /// Nearest point of the surface of the piece that `p` is deepest in or closest to.
   Nearest nearest(const Eigen::Vector3d& p) const;
+  /// Like nearest(p).distance_m inside the mesh's box; outside of it the distance to the box, which is no more. Quick
+  /// there.
+  double distanceAtLeast_m(const Eigen::Vector3d& p) const;
   /// 0 outside, else how deep inside [m]; quick for points outside the mesh's box.
   double depth_m(const Eigen::Vector3d& p) const;
 
  private:
+  MeshDistance();
   struct Piece;
   std::vector<Piece> pieces_, cavities_;
 };

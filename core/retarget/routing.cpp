@@ -56,7 +56,8 @@ Routing route(const Model& reference, const RoutingReference& prepared, Model& m
   require(reference.musculature.units.size() == model.musculature.units.size(), "route: the same units");
   const std::vector<double> shape = toVector(model.shape);
   const MotionPoses poses{model.skeleton, prepared.motions()};
-  const UnitRouter router{reference, prepared, shape, poses, options};
+  const BodyBones bones{reference, prepared.bones(), model};
+  const UnitRouter router{reference, prepared, shape, poses, bones, options};
   const auto mirrorOf = [&](std::size_t i) { return mirrorBefore(prepared, shape, i); };
   std::vector<bool> unchanged(model.musculature.units.size(), false);
   if (previous) unchanged = unchangedUnits(prepared, previous->model.shape, model.shape);
@@ -73,9 +74,15 @@ Routing route(const Model& reference, const RoutingReference& prepared, Model& m
   if (!done) return {.outcome = Outcome::Cancelled};
   for (std::size_t i = 0; i < units.size(); ++i)
     if (const int mirror = mirrorOf(i); mirror >= 0 && !unchanged[i]) {
-      routing.units[i] = routing.units[static_cast<std::size_t>(mirror)];
-      routing.units[i].unit = units[i].name;
-      mirrorPath(units[static_cast<std::size_t>(mirror)], units[i]);
+      MusculotendonUnit unit = units[i];
+      mirrorPath(units[static_cast<std::size_t>(mirror)], unit);
+      if (options.method == RetargetMethod::Naive || router.fits(i, unit)) {
+        routing.units[i] = routing.units[static_cast<std::size_t>(mirror)];
+        routing.units[i].unit = unit.name;
+        units[i] = std::move(unit);
+      } else {  // bones of the midline are not quite their own mirror images
+        routing.units[i] = router(i, units[i], job.stop);
+      }
     }
   model.musculature.units = std::move(units);
   routing.outcome = Outcome::Converged;

@@ -31,7 +31,7 @@ struct RoutingWeights {
   double curve = 20;              ///< of the curve's mean squared deviation, relative to w_Delta
   double via_1_m2 = 100;          ///< a via point that moves by 1 cm costs 0.01 ...
   double attachment_1_m2 = 5000;  ///< ... an attachment that slides on its bone by 1 cm costs 0.5 ...
-  double far_m = 0.05;            ///< ... twice as much where it has moved so far: nothing flies out of the body
+  double far_m = 0.02;            ///< ... twice as much where it has moved so far: nothing flies out of the body
   double inside_1_m2 = 20000;     ///< ... and 1 cm into the bone that a via point glides on costs 2
   double crowding = 200;          ///< of a piece of the path below a quarter of its length, in its lengths, squared
   double reversal = 3000;         ///< of a step against the reference, in shares of its range, squared

@@ -5,6 +5,7 @@
 
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/muscle_role.h"
+#include "core/parallel.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -37,6 +38,8 @@ std::vector<RoutingMotion> sampled(const std::vector<std::pair<const JointMotion
     RoutingMotion& motion = motions.emplace_back(way->name, skeleton.coordinateIndex(way->coordinate), double(count));
     for (int s = 0; s < kRoutingSamples; ++s)
       motion.postures.push_back(motionPosture(skeleton, *way, double(s) / (kRoutingSamples - 1)));
+    for (int s = 0; s <= kReversalSteps; ++s)
+      motion.steps.push_back(motionPosture(skeleton, *way, double(s) / kReversalSteps));
   }
   return motions;
 }
@@ -58,11 +61,32 @@ ReferenceCurves curvesOf(const MusculotendonUnit& unit, const std::vector<int>& 
     }
     c.features.push_back(curveFeatures(std::span{c.lengths}.last(kRoutingSamples)));
     c.significance.push_back(c.features.back().range() > kSignificantRange ? 1 : 0);
+    auto& lengths = c.step_lengths.emplace_back();
+    if (c.significance.back() > 0) lengths = lengthsOver(unit, poses.over(motion));
+    c.step_directions.push_back(lengths.empty() ? std::vector<int>{} : stepDirections(lengths));
+    for (double& length : lengths) length /= c.zero_length_m;
   }
   return c;
 }
 
-PointGuide guideOf(const PathPoint& point, const BoneDistances& bones) {
+/// Bones of the given segments near a point, at the zero posture.
+std::vector<int> nearBones(const Eigen::Vector3d& p_W, const std::vector<bool>& segments, const BoneDistances& bones,
+                           const MotionPoses::Poses& X_WB) {
+  constexpr double kNear_m = 0.06;
+  std::vector<int> near;
+  for (std::size_t b = 0; b < bones.bones().size(); ++b) {
+    const BoneDistances::Bone& bone = bones.bones()[b];
+    const auto segment = static_cast<std::size_t>(bone.segment);
+    if (!segments[segment]) continue;
+    const Eigen::Vector3d p_B = X_WB[segment].inverse() * p_W;
+    const bool beside = ((p_B - bone.high_B).array() > kNear_m).any() || ((bone.low_B - p_B).array() > kNear_m).any();
+    if (!beside && bone.distance.nearest(p_B).distance_m < kNear_m) near.push_back(static_cast<int>(b));
+  }
+  return near;
+}
+
+PointGuide guideOf(const PathPoint& point, const BoneDistances& bones, const std::vector<bool>& spanned,
+                   const MotionPoses::Poses& X_WB) {
   PointGuide guide;
   guide.attachment = point.role != PathPointRole::Via;
   const auto heaviest = std::ranges::max_element(point.anchors, {}, &Anchor::weight);
@@ -87,6 +111,11 @@ PointGuide guideOf(const PathPoint& point, const BoneDistances& bones) {
     const bool slides = point.anchors.size() == 1 && guide.surface_segment >= 0;
     guide.basis_B = slides ? tangentBasis(nearest.nearest.normal) : Eigen::Matrix3d::Zero();
   }
+  std::vector<bool> segments(X_WB.size(), false);
+  if (guide.surface_segment >= 0) segments[static_cast<std::size_t>(guide.surface_segment)] = true;
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  for (const Anchor& a : point.anchors) p_W += a.weight * (X_WB[static_cast<std::size_t>(a.segment)] * a.p_B);
+  guide.near_bones = nearBones(p_W, guide.attachment ? segments : spanned, bones, X_WB);
   return guide;
 }
 
@@ -128,9 +157,11 @@ Eigen::Matrix3d tangentBasis(const Eigen::Vector3d& normal) {
 }
 
 MotionPoses::MotionPoses(const Skeleton& skeleton, const std::vector<RoutingMotion>& motions)
-    : zero_{segmentPoses(skeleton, zeroPosture(skeleton))} {
-  for (const RoutingMotion& motion : motions)
-    for (const Posture& q : motion.postures) X_WB_.push_back(segmentPoses(skeleton, q));
+    : X_WB_(motions.size()), zero_{segmentPoses(skeleton, zeroPosture(skeleton))} {
+  forEachInParallel(motions.size(), {}, "poses", [&](std::size_t m) {
+    X_WB_[m].reserve(motions[m].steps.size());
+    for (const Posture& q : motions[m].steps) X_WB_[m].push_back(segmentPoses(skeleton, q));
+  });
 }
 
 RoutingReference::RoutingReference(const Model& reference, const std::vector<JointMotion>& motions)
@@ -147,7 +178,8 @@ RoutingReference::RoutingReference(const Model& reference, const std::vector<Joi
       if (std::ranges::count(spanned, motions_[m].coordinate)) taken.push_back(static_cast<int>(m));
     curves_.push_back(curvesOf(unit, taken, poses_));
     std::vector<PointGuide>& guides = guides_.emplace_back();
-    for (const PathPoint& point : unit.path) guides.push_back(guideOf(point, bones_));
+    const std::vector<bool> segments = spannedSegments(reference.skeleton, unit);
+    for (const PathPoint& point : unit.path) guides.push_back(guideOf(point, bones_, segments, poses_.atZero()));
   }
   mirror_of_ = mirrorsIn(reference);
 }

@@ -7,6 +7,7 @@
 #include "core/model/model.h"
 #include "core/model/path_clearance.h"
 #include "core/retarget/length_curve.h"
+#include "core/retarget/reversals.h"
 #include "core/retarget/shape_dependencies.h"
 #include "core/skeleton/joint_motion.h"
 
@@ -18,8 +19,12 @@ struct RoutingMotion {
   int coordinate = -1;            ///< clinical, that moves
   double weight = 1;              ///< how many
   std::vector<Posture> postures;  ///< kRoutingSamples, evenly from theta = 0 to 1
+  std::vector<Posture> steps;     ///< the same more closely: kReversalSteps + 1
 };
 inline constexpr int kRoutingSamples = 11;
+/// Steps of a motion between two samples.
+inline constexpr int kStepsPerSample = kReversalSteps / (kRoutingSamples - 1);
+static_assert(kStepsPerSample * (kRoutingSamples - 1) == kReversalSteps);
 
 /// What one unit does in the reference over the motions that it takes part in: those whose coordinate it spans.
 struct ReferenceCurves {
@@ -30,11 +35,11 @@ struct ReferenceCurves {
   /// By motion: 1 where the unit is functionally significant - its length changes by more than kSignificantRange -,
   /// so that where it is longest and shortest has a meaning; else 0.
   std::vector<double> significance;
+  std::vector<std::vector<double>> step_lengths;  ///< by motion: kReversalSteps + 1 lengths; empty if insignificant
+  std::vector<std::vector<int>> step_directions;  ///< by motion: stepDirections() of these
   double zero_length_m = 0;
 };
 inline constexpr double kSignificantRange = 0.01;  ///< of the length at the zero posture
-/// A step between samples smaller than this share of the curve's range has no direction: next to an extremum.
-inline constexpr double kReversalShare = 0.02;
 
 /// How a path point may move. Displacements are given in the reference body and carried over by the field.
 struct PointGuide {
@@ -48,20 +53,25 @@ struct PointGuide {
   int bone = -1;  ///< of BoneDistances::bones()
   Eigen::Vector3d surface_B = Eigen::Vector3d::Zero();
   double clearance_m = 0;  ///< distance from there; negative inside
+  /// Bones that it could come into: near ones, of all segments that the unit spans (an attachment: of its own).
+  std::vector<int> near_bones;
 };
 
-/// Poses of all segments over all samples of all motions: [motion][sample] -> by segment.
+/// Poses of all segments over all motions.
 class MotionPoses {
  public:
+  using Poses = std::vector<RigidTransform>;  ///< by segment
   MotionPoses(const Skeleton& skeleton, const std::vector<RoutingMotion>& motions);
-  const std::vector<RigidTransform>& at(int motion, int sample) const {
-    return X_WB_[static_cast<std::size_t>(motion * kRoutingSamples + sample)];
+  const Poses& at(int motion, int sample) const {
+    return X_WB_[static_cast<std::size_t>(motion)][static_cast<std::size_t>(kStepsPerSample * sample)];
   }
-  const std::vector<RigidTransform>& atZero() const { return zero_; }
+  /// kReversalSteps + 1 of them.
+  const std::vector<Poses>& over(int motion) const { return X_WB_[static_cast<std::size_t>(motion)]; }
+  const Poses& atZero() const { return zero_; }
 
  private:
-  std::vector<std::vector<RigidTransform>> X_WB_;
-  std::vector<RigidTransform> zero_;
+  std::vector<std::vector<Poses>> X_WB_;  ///< [motion][end of a step]
+  Poses zero_;
 };
 
 /// Two directions of the tangent plane with this normal; third column 0.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/model/path_clearance.h"
 #include "core/skeleton/bone_field.h"
 
 namespace sinew {
@@ -40,6 +41,14 @@ std::vector<bool> segmentsFeeling(const Model& reference, const std::vector<std:
   return feels;
 }
 
+/// Segments that a unit hangs on, or whose bones it has to get around.
+std::vector<bool> segmentsOf(const Skeleton& skeleton, const MusculotendonUnit& unit) {
+  std::vector<bool> segments = spannedSegments(skeleton, unit);
+  for (const PathPoint& point : unit.path)
+    for (const Anchor& anchor : point.anchors) segments[static_cast<std::size_t>(anchor.segment)] = true;
+  return segments;
+}
+
 /// The same parameter of the other side; itself if it has no side.
 std::vector<std::size_t> mirrorImages() {
   ShapeParameters numbered = shapeFromVector([] {
@@ -57,16 +66,19 @@ std::vector<std::size_t> mirrorImages() {
 
 ShapeDependencies::ShapeDependencies(const Model& reference) : felt_(reference.musculature.units.size()) {
   const auto points = pointsOf(reference);
+  std::vector<std::vector<bool>> concerned;  // by unit and segment
+  for (const MusculotendonUnit& unit : reference.musculature.units)
+    concerned.push_back(segmentsOf(reference.skeleton, unit));
   std::vector<double> shape = toVector(ShapeParameters{});
   for (double& value : shape) value += 0.1;  // a body in which every parameter matters
   for (std::size_t k = 0; k < shape.size(); ++k) {
     const std::vector<bool> feels = segmentsFeeling(reference, points, shape, k);
     for (std::size_t u = 0; u < felt_.size(); ++u)
-      if (std::ranges::any_of(reference.musculature.units[u].path, [&](const PathPoint& point) {
-            return std::ranges::any_of(
-                point.anchors, [&](const Anchor& anchor) { return feels[static_cast<std::size_t>(anchor.segment)]; });
-          }))
-        felt_[u].push_back(static_cast<int>(k));
+      for (std::size_t s = 0; s < feels.size(); ++s)
+        if (feels[s] && concerned[u][s]) {
+          felt_[u].push_back(static_cast<int>(k));
+          break;
+        }
   }
 }
 

@@ -5,9 +5,9 @@
 
 namespace sinew {
 
-/// Which shape parameters a unit feels: through the fields of the segments that it hangs on, or through where these
-/// lie. Found by trying every parameter on the reference, so that it holds for whatever the field is. If none of them
-/// changes, nothing about the unit does, to the last bit.
+/// Which shape parameters a unit feels: through the fields of the segments that it hangs on or spans, or through
+/// where these lie. Found by trying every parameter on the reference, so that it holds for whatever the field is. If
+/// none of them changes, nothing about the unit does, to the last bit.
 class ShapeDependencies {
  public:
   /// `reference` undeformed.

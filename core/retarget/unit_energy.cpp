@@ -260,7 +260,7 @@ double UnitProblem::evaluate(const Eigen::VectorXd& x, Objective objective, Rout
   addResiduals<kOrder>(e);
   double slide = 0;
   parts.displacement = addPrices<kOrder>(x, objective.slide_1_m2, e, slide) + addCrowding<kOrder>(x, e);
-  return e.energy = parts.total(weights_) + slide;
+  return e.energy = parts.total(weights_) + slide + addWatched(x, kOrder, e);
 }
 
 RoutingEnergy UnitProblem::parts(const Eigen::VectorXd& x) const {

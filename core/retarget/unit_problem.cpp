@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "core/error.h"
 #include "core/retarget/unit_problem_internal.h"
@@ -38,29 +37,36 @@ void UnitProblem::movePoint(std::size_t p, const std::vector<Anchor>& anchors, c
   placePoint(p, anchors);
 }
 
-void UnitProblem::placePoint(std::size_t p, const std::vector<Anchor>& anchors) {
-  constexpr std::size_t kMostAnchors = 8;
-  require(anchors.size() <= kMostAnchors, "UnitProblem: a point hangs on few segments");
-  std::array<Eigen::Matrix3d, kMostAnchors> basis_B;  // weighted, in each anchor's segment
+/// The unknowns of a point in the segment of each of its anchors, weighted.
+UnitProblem::Bases UnitProblem::basesOf(std::size_t p, const std::vector<Anchor>& anchors) const {
+  Bases bases_B;
+  require(anchors.size() <= bases_B.size(), "UnitProblem: a point hangs on few segments");
   for (std::size_t k = 0; k < anchors.size(); ++k)
-    basis_B[k] =
+    bases_B[k] =
         anchors[k].weight *
         (poses_->atZero()[static_cast<std::size_t>(anchors[k].segment)].linear().transpose() * points_[p].basis_W);
-  zero_[p] = {Eigen::Vector3d::Zero(), points_[p].basis_W};
-  for (const Anchor& anchor : anchors)
-    zero_[p].c += anchor.weight * (poses_->atZero()[static_cast<std::size_t>(anchor.segment)] * anchor.p_B);
+  return bases_B;
+}
+
+UnitProblem::Place UnitProblem::placed(const std::vector<Anchor>& anchors, const Bases& bases_B,
+                                       const MotionPoses::Poses& X_WB) {
+  Place place{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  for (std::size_t k = 0; k < anchors.size(); ++k) {
+    const RigidTransform& X = X_WB[static_cast<std::size_t>(anchors[k].segment)];
+    place.c += anchors[k].weight * (X * anchors[k].p_B);
+    place.D.noalias() += X.linear() * bases_B[k];
+  }
+  return place;
+}
+
+void UnitProblem::placePoint(std::size_t p, const std::vector<Anchor>& anchors) {
+  const Bases bases_B = basesOf(p, anchors);
+  zero_[p] = {placed(anchors, bases_B, poses_->atZero()).c, points_[p].basis_W};
   Place* place = &places_[p];
   for (const int motion : reference_->motions)
-    for (int s = 0; s < kRoutingSamples; ++s, place += points_.size()) {
-      const auto& X_WB = poses_->at(motion, s);
-      place->c.setZero();
-      place->D.setZero();
-      for (std::size_t k = 0; k < anchors.size(); ++k) {
-        const RigidTransform& X = X_WB[static_cast<std::size_t>(anchors[k].segment)];
-        place->c += anchors[k].weight * (X * anchors[k].p_B);
-        place->D.noalias() += X.linear() * basis_B[k];
-      }
-    }
+    for (int s = 0; s < kRoutingSamples; ++s, place += points_.size())
+      *place = placed(anchors, bases_B, poses_->at(motion, s));
+  placeWatched(p, anchors);
 }
 
 void UnitProblem::sortPieces(const std::vector<std::vector<Anchor>>& anchors, const MotionPoses& reference_poses) {

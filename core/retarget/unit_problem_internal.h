@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "core/retarget/routing.h"
@@ -32,6 +33,18 @@ class UnitProblem {
   UnitProblem(const std::vector<std::vector<Anchor>>& anchors, const ReferenceCurves& reference,
               const MotionPoses& reference_poses, const MotionPoses& poses, const std::vector<Point>& points,
               double zero_length_m, const std::vector<RoutingMotion>& motions, const RoutingWeights& weights);
+
+  /// One step of a length-angle curve (core/retarget/reversals.h) that must keep its direction.
+  struct WatchedStep {
+    std::size_t motion = 0;  ///< of those that the unit takes part in
+    std::size_t step = 0;
+    double direction = 1;
+    double least = 0;   ///< how far it has to go, relative to the length at the zero posture
+    double weight = 0;  ///< of the square of what it lacks
+  };
+  /// From now on a price is asked for these steps, beyond RoutingEnergy. `anchors`: where the points are.
+  void watch(std::vector<WatchedStep> steps, const std::vector<std::vector<Anchor>>& anchors);
+  double watchedPrice() const;  ///< of the points where they are
 
   /// The same unit, its points elsewhere.
   void moveTo(const std::vector<std::vector<Anchor>>& anchors, const std::vector<Point>& points);
@@ -70,6 +83,10 @@ class UnitProblem {
     bool changes_length;
   };
   void placePoint(std::size_t p, const std::vector<Anchor>& anchors);
+  void placeWatched(std::size_t p, const std::vector<Anchor>& anchors);
+  using Bases = std::array<Eigen::Matrix3d, 8>;
+  Bases basesOf(std::size_t p, const std::vector<Anchor>& anchors) const;
+  static Place placed(const std::vector<Anchor>& anchors, const Bases& bases_B, const MotionPoses::Poses& X_WB);
   void sortPieces(const std::vector<std::vector<Anchor>>& anchors, const MotionPoses& reference_poses);
   bool changesLength(std::size_t motion) const { return changes_length_[motion]; }
 
@@ -94,6 +111,8 @@ class UnitProblem {
   double addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expansion& e, double& slide) const;
   template <Order kOrder>
   double addCrowding(const Eigen::VectorXd& x, Expansion& e) const;
+  double addWatched(const Eigen::VectorXd& x, Order order, Expansion& e) const;
+  double watchedLength(const Eigen::VectorXd& x, const Place* places, double sign, Eigen::VectorXd* slope) const;
 
   const ReferenceCurves* reference_;
   const MotionPoses* poses_;
@@ -106,6 +125,8 @@ class UnitProblem {
   std::vector<RigidPiece> rigid_;
   std::vector<std::vector<MovingPiece>> moving_;  ///< by motion: the other pieces
   std::vector<bool> changes_length_;              ///< by motion: any of them
+  std::vector<WatchedStep> watched_;
+  std::vector<Place> watched_places_;  ///< [watched step][its begin, its end][point]
   double zero_length_m_;
 
   // Working memory of one evaluation: a problem belongs to one thread.

@@ -77,6 +77,26 @@ TEST(Disorders, OnlyAReversedMuscleIsOne) {
   EXPECT_EQ(std::ranges::count(reversed, 0.0), long(reversed.size()) - 1);
 }
 
+TEST(Disorders, DirectionsAndReversalsByHand) {
+  // A range of 1 in four steps: one below 0.02 x 10 / 4 = 0.05 has no direction.
+  const std::vector<int> directions = stepDirections(std::vector{0.0, 0.96, 1.0, 0.9, 0.1});
+  EXPECT_THAT(directions, ::testing::ElementsAre(1, 0, -1, -1));
+  StepCount count;
+  countReversals(directions, std::vector{5.0, 4.0, 3.0, 2.0, 2.5}, count);
+  EXPECT_EQ(count.directed, 3);
+  EXPECT_EQ(count.reversed, 2);
+  EXPECT_NEAR(count.share(), 2.0 / 3, 1e-15);
+}
+
+TEST(Disorders, NoMuscleReversesMoreThanWithoutRetargeting) {
+  const Disorders found = disorders(reference(), {.elongations = {0.6, 1.3, 2.5}});
+  ASSERT_EQ(found.outcome, Outcome::Converged);
+  for (const DisorderRow& row : found.rows)
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+      EXPECT_LE(row.retargeted[u], row.naive[u]) << found.units[u] << " at " << row.elongation;
+  EXPECT_THAT(found.rows[1].retargeted, ::testing::Each(0.0));  // mild: none at all
+}
+
 TEST(KeptFunctions, OnlyAReversedMuscleLosesThem) {
   const KeptFunctions own = keptFunctions(reference(), reference().model());
   EXPECT_EQ(own.share(), 1);
@@ -116,18 +136,22 @@ TEST(MethodComparison, LeastSquaresEndLowerThanTheDescent) {
 }
 
 TEST(EnergyVerdict, CountsByHand) {
-  MethodComparison comparison{Outcome::Converged, {"a", "b", "c", "d"}, {}};
+  MethodComparison comparison{Outcome::Converged, {"a", "b", "c", "d", "e", "f"}, {}};
   BodyComparison body{.name = "body"};
-  body.start = {1, 1, 1, 0};  // nothing to improve in the last
-  body.paper = {0.5, 0.5, 0.5, 0};
-  body.sinew = {0.4, 0.5, 0.6, 0};
+  body.start = {1, 1, 1, 0, 1, 1};  // nothing to improve in the fourth
+  body.paper = {0.5, 0.5, 0.5, 0, 1, 0.5};
+  body.sinew = {0.4, 0.5, 0.6, 0, 1, 0.55};
+  body.paper_reversed = {0.1, 0, 0, 0, 0, 0.1};
+  body.sinew_reversed = {0, 0, 0, 0, 0, 0};
   comparison.bodies = {body};
   const EnergyVerdict v = energyVerdict(comparison);
-  EXPECT_EQ(v.compared, 3);
+  EXPECT_EQ(v.compared, 5);
   EXPECT_EQ(v.lower, 1);
-  EXPECT_EQ(v.equal, 1);
-  EXPECT_EQ(v.higher, 1);
-  EXPECT_EQ(v.higher_by_one_percent, 1);
+  EXPECT_EQ(v.equal, 2);
+  EXPECT_EQ(v.equal_at_start, 1);
+  EXPECT_EQ(v.higher, 2);
+  EXPECT_EQ(v.higher_by_one_percent, 2);
+  EXPECT_EQ(v.higher_for_order, 1);
   EXPECT_NEAR(v.worst_ratio, 1.2, 1e-12);
   EXPECT_EQ(v.worst_unit, "c, body");
 }

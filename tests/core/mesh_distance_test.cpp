@@ -77,5 +77,20 @@ TEST(MeshDistance, ACavityIsOutside) {
   EXPECT_EQ(shell.depth_m({0.5, 0.5, 0.5}), 0);
 }
 
+TEST(MeshDistance, MovedToOtherVerticesIsTheDistanceToThatMesh) {
+  TriangleMesh mesh = together(cube({0, 0, 0}, 1), cube({0.8, 0.1, 0.1}, 1));
+  const MeshDistance before{mesh};
+  for (Vector3d& p : mesh.vertices) p = Vector3d{1.5 * p.x() + 0.2 * p.y() * p.y(), 0.7 * p.y(), p.z() - 0.3 * p.x()};
+  const MeshDistance moved = before.movedTo(mesh.vertices), anew{mesh};
+  std::mt19937 random{2};
+  std::uniform_real_distribution<double> at{-1, 3};
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d p{at(random), at(random), at(random)};
+    EXPECT_NEAR(moved.nearest(p).distance_m, anew.nearest(p).distance_m, 1e-12);
+    EXPECT_LE(moved.distanceAtLeast_m(p), moved.nearest(p).distance_m + 1e-12);
+    EXPECT_EQ(moved.distanceAtLeast_m(p) < 0, moved.nearest(p).distance_m < 0);
+  }
+}
+
 }  // namespace
 }  // namespace sinew

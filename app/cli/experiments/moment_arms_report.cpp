@@ -29,6 +29,37 @@ Verdict verdictOf(const std::vector<MomentArmFigure>& figures, const std::string
   return {body + ": hip extensor and flexor", wanted > 0 ? "larger" : "smaller", "shown", ours, as_claimed == 2};
 }
 
+/// The same bodies as they are before step 1, or routed by another method.
+std::vector<Character> routedBy(RetargetMethod method, ExperimentContext& context,
+                                std::span<const Character> characters) {
+  std::vector<Character> routed;
+  for (const Character& c : characters)
+    routed.push_back({.body = c.body,
+                      .retargeted = retarget(context.reference(), c.body.shape,
+                                             {.method = method, .peak_torque = false}, context.job())});
+  return routed;
+}
+
+/// Mean arm of every body over the reference's, by each method.
+std::string methodsText(ExperimentContext& context, std::span<const Character> characters) {
+  const std::vector<Character> naive = routedBy(RetargetMethod::Naive, context, characters),
+                               paper = routedBy(RetargetMethod::Paper, context, characters);
+  std::vector<std::string> header = {"over the reference's"};
+  std::vector<std::vector<std::string>> table;
+  for (const MomentArmQuestion& question : paperMomentArms()) {
+    std::vector<std::string>& row = table.emplace_back(1, question.muscle);
+    std::vector<MomentArmFigure> figures;
+    for (const std::span<const Character> bodies : {std::span{naive}, std::span{paper}, characters})
+      figures.push_back(momentArmFigure(context.reference(), bodies, question));
+    for (std::size_t c = 1; c <= characters.size(); ++c)
+      for (const MomentArmFigure& figure : figures)
+        row.push_back("x " + fixed(figure.curves[c].mean_m / figure.curves.front().mean_m, 2));
+  }
+  for (const Character& c : characters)
+    for (const char* method : {" naive", " paper", " sinew"}) header.push_back(c.body.name + method);
+  return textTable(header, table);
+}
+
 }  // namespace
 
 ExperimentReport momentArmsReport(ExperimentContext& context) {
@@ -64,7 +95,9 @@ ExperimentReport momentArmsReport(ExperimentContext& context) {
   for (const MomentArmCurve& curve : figures.front().curves) header.push_back(curve.body);
   report.text =
       textTable(header, table) +
-      "Means over the motion, positive = turns that way; parts of a muscle weighted by their maximal forces.\n";
+      std::string{
+          "Means over the motion, positive = turns that way; parts of a muscle weighted by their maximal forces.\n"} +
+      methodsText(context, others);
   report.verdicts = {verdictOf(figures, "alien", 1), verdictOf(figures, "hulk", -1), verdictOf(figures, "dwarf", -1)};
   report.result = {{"figures", list}};
   return report;
