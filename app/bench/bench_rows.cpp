@@ -265,7 +265,7 @@ void BenchRows::addSweep() {
   };
   const std::vector<double> peer_longest_m = dart_ ? peerSweep().first : std::vector<double>{};
   for (const bool single : {false, true}) {
-    const auto precision = single ? SweepPrecision::Single : SweepPrecision::Double;
+    const auto precision = single ? Precision::Single : Precision::Double;
     const PostureSweep sweep = sweepPostures(compiled_, kSweep, read, precision);
     for (std::size_t u = 0; u < all_units_.size(); ++u) {
       double expected_m = 0;

@@ -117,10 +117,17 @@ void RetargetRows::addWholeBody() {
   const ShapeParameters femora = withFemora(1.2, 0.2);
   equal_sides.ours = body(femora, RetargetMethod::Sinew);
   equal_sides.peer = body(femora, RetargetMethod::Paper);
-  BenchRow slider = row(14, "14 one femur", "the same, one femur longer by 5 %, everything anew", "body", 10, peer);
-  slider.ours = body(slider_, RetargetMethod::Sinew);
-  slider.peer = body(slider_, RetargetMethod::Paper);
-  rows_.insert(rows_.end(), {whole, equal_sides, slider});
+  BenchRow femur = row(14, "14 one femur", "the same, one femur longer by 5 %, everything anew", "body", 10, peer);
+  femur.ours = body(slider_, RetargetMethod::Sinew);
+  femur.peer = body(slider_, RetargetMethod::Paper);
+  ShapeParameters before = slider_;
+  before.sides[0].femur.elongation = 1.02;
+  const auto previous = std::make_shared<const Retargeted>(retarget(*reference_, before));
+  BenchRow slider = row(14, "14 slider", "that femur after a drag from 2 to 5 %", "body", 10, peer);
+  slider.ours = {
+      [reference = reference_, shape = slider_, previous] { retarget(*reference, shape, {}, {}, *previous); }, 1};
+  slider.peer = femur.peer;
+  rows_.insert(rows_.end(), {whole, equal_sides, femur, slider});
 }
 
 }  // namespace sinew

@@ -46,14 +46,18 @@ void batchPoses(const CompiledModel& model, const PoseTable& postures, PoseTable
     kernel(view, postures.block(b), scratch.get(), X_WB.block(b));
 }
 
-void batchLengths(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m) {
+void batchLengths(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m, Precision precision) {
   checkPostures(model, postures);
   fit(lengths_m, postures.poseCount(), static_cast<std::size_t>(model.unitCount()));
   KernelScratch scratch{model};
-  const auto view = model.arrays().view<double>();
-  const auto kernel = kernels(model.isa()).lengths;
+  const KernelTable& kernel = kernels(model.isa());
+  const auto in_double = model.arrays().view<double>();
+  const auto in_single = model.arrays().view<float>();
   for (std::size_t b = 0; b < postures.blockCount(); ++b)
-    kernel(view, postures.block(b), scratch.get(), lengths_m.block(b));
+    if (precision == Precision::Double)
+      kernel.lengths(in_double, postures.block(b), scratch.get(), lengths_m.block(b));
+    else
+      kernel.lengths_float(in_single, postures.block(b), scratch.get(), lengths_m.block(b));
 }
 
 void batchGradients(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m,

@@ -3,6 +3,7 @@
 
 #include "core/kernel/compiled_model.h"
 #include "core/kernel/pose_table.h"
+#include "core/kernel/precision.h"
 
 namespace sinew {
 
@@ -14,8 +15,10 @@ namespace sinew {
 /// X_WB of every segment: entry 12 * segment + 4 * row + column of its upper three rows [R p].
 void batchPoses(const CompiledModel& model, const PoseTable& postures, PoseTable& X_WB);
 
-/// Path lengths [m], one entry a unit.
-void batchLengths(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m);
+/// Path lengths [m], one entry a unit. In single precision equal models give equal lengths, but the last digits are
+/// those of the instruction set.
+void batchLengths(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m,
+                  Precision precision = Precision::Double);
 
 /// Path lengths and dl/dq [m/rad] in the model's pattern: one entry each of gradientCoordinate().
 void batchGradients(const CompiledModel& model, const PoseTable& postures, PoseTable& lengths_m,

@@ -13,8 +13,8 @@ constexpr std::size_t kChunk = 32 * PoseTable::kBlock;  // postures in memory at
 /// The sweep of one model in one precision, with its working memory.
 class Sweeper {
  public:
-  Sweeper(const CompiledModel& model, SweepPrecision precision)
-      : model_{model}, scratch_{model}, single_{precision == SweepPrecision::Single} {}
+  Sweeper(const CompiledModel& model, Precision precision)
+      : model_{model}, scratch_{model}, single_{precision == Precision::Single} {}
 
   /// The first `poses` postures of one block.
   void block(const double* q, int poses, long first, PostureSweep& sweep, std::uint8_t* state) {
@@ -51,7 +51,7 @@ PostureSweep emptySweep(const CompiledModel& model, std::size_t count) {
 class Referee {
  public:
   Referee(const CompiledModel& model, const PostureReader& read)
-      : model_{model}, read_{read}, sweeper_{model, SweepPrecision::Double} {}
+      : model_{model}, read_{read}, sweeper_{model, Precision::Double} {}
 
   PostureSweep operator()(std::size_t posture) {
     PoseTable one{1, static_cast<std::size_t>(model_.coordinateCount())};
@@ -91,7 +91,7 @@ std::size_t PostureSweep::validCount() const {
 }
 
 PostureSweep sweepPostures(const CompiledModel& model, std::size_t count, const PostureReader& read,
-                           SweepPrecision precision) {
+                           Precision precision) {
   PostureSweep sweep = emptySweep(model, count);
   Sweeper sweeper{model, precision};
   PoseTable chunk;
@@ -101,7 +101,7 @@ PostureSweep sweepPostures(const CompiledModel& model, std::size_t count, const 
     read(first, chunk);
     sweeper.chunk(chunk, first, sweep);
   }
-  if (precision == SweepPrecision::Single && count > 0) settleInDouble(model, read, sweep);
+  if (precision == Precision::Single && count > 0) settleInDouble(model, read, sweep);
   return sweep;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/kernel/compiled_model.h"
 #include "core/kernel/pose_table.h"
+#include "core/kernel/precision.h"
 
 namespace sinew {
 
@@ -14,12 +15,6 @@ namespace sinew {
 /// Fills the table with the postures from number `first` on, as many as it has room for. May be asked for some twice.
 using PostureReader = std::function<void(std::size_t first, PoseTable& postures)>;
 
-enum class SweepPrecision {
-  Double,
-  Single  ///< about twice as fast. Longest paths are within 0.01 mm of the true maximum and exact for the posture
-          ///< named; whoever is within 5 um of the limit is asked again in double: validity is the same
-};
-
 struct PostureSweep {
   std::vector<double> longest_m;      ///< by unit
   std::vector<long> longest_posture;  ///< number of the posture that has it
@@ -27,7 +22,9 @@ struct PostureSweep {
   std::size_t validCount() const;
 };
 
+/// In single precision longest paths are within 0.01 mm of the true maximum and exact for the posture named; whoever
+/// is within 5 um of the limit is asked again in double: validity is the same.
 PostureSweep sweepPostures(const CompiledModel& model, std::size_t count, const PostureReader& read,
-                           SweepPrecision precision = SweepPrecision::Double);
+                           Precision precision = Precision::Double);
 
 }  // namespace sinew

@@ -102,13 +102,13 @@ LongestLengths boundsOf(const RetargetReference& reference, Model& model, Maxima
 std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature& musculature, const PoseSet& poses,
                                      const Job& job) {
   const CompiledModel model{skeleton, musculature};
-  constexpr std::size_t kPart = 512 * PoseTable::kBlock;
+  constexpr std::size_t kPart = 1152 * PoseTable::kBlock;  // few: each asks the longest of every unit again in double
   const std::size_t parts = (poses.size() + kPart - 1) / kPart;
   std::vector<PostureSweep> sweeps(parts);
   const bool done = forEachInParallel(parts, job, "longest paths", [&](std::size_t part) {
     const std::size_t offset = part * kPart;
     const auto read = [&](std::size_t first, PoseTable& table) { poses.read(offset + first, table); };
-    sweeps[part] = sweepPostures(model, std::min(kPart, poses.size() - offset), read, SweepPrecision::Single);
+    sweeps[part] = sweepPostures(model, std::min(kPart, poses.size() - offset), read, Precision::Single);
   });
   if (!done) return {};
   std::vector<double> longest_m(musculature.units.size(), 0.0);

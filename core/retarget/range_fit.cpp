@@ -32,7 +32,7 @@ RangeLengths measured(const RangeSamples& samples, const JointRangeSamples& join
   PoseTable postures{512, std::size_t(model.coordinateCount())}, lengths_m;
   for (std::size_t first = 0; first < joint.samples.size(); first += postures.poseCount()) {
     samples.read(joint, first, postures);
-    batchLengths(model, postures, lengths_m);
+    batchLengths(model, postures, lengths_m, Precision::Single);
     for (std::size_t i = 0; i < postures.poseCount() && first + i < joint.samples.size(); ++i) {
       bool forbidden = false, open = false;  // by every length that may be chosen; by some
       for (std::size_t u = 0; u < intervals.size(); ++u) {

@@ -145,7 +145,7 @@ std::vector<Verdict> judged(const RangeSamples& ranges, const Model& reference, 
   PoseTable postures{512, std::size_t(model.coordinateCount())}, lengths_m;
   for (std::size_t first = 0; first < verdicts.size(); first += postures.poseCount()) {
     ranges.read(joint, first, postures);
-    batchLengths(model, postures, lengths_m);
+    batchLengths(model, postures, lengths_m, Precision::Single);
     for (std::size_t i = 0; i < postures.poseCount() && first + i < verdicts.size(); ++i)
       for (std::size_t u = 0; u < longest_m.size(); ++u) {
         Verdict& v = verdicts[first + i];

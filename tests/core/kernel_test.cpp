@@ -59,8 +59,10 @@ TEST_P(KernelAtEveryIsa, PosesOfAllSegmentsAreThoseOfTheKinematics) {
 }
 
 TEST_P(KernelAtEveryIsa, LengthsAndGradientsAreThoseOfTheReadableCode) {
-  PoseTable lengths, lengths_too, gradients;
+  constexpr double kSingle_m = 1e-5;  // what Precision::Single promises
+  PoseTable lengths, lengths_too, in_single, gradients;
   batchLengths(model_, table_, lengths);
+  batchLengths(model_, table_, in_single, Precision::Single);
   batchGradients(model_, table_, lengths_too, gradients);
   for (std::size_t i = 0; i < postures_.size(); ++i) {
     const Kinematics k = kinematics(skeleton(), postures_[i]);
@@ -71,6 +73,7 @@ TEST_P(KernelAtEveryIsa, LengthsAndGradientsAreThoseOfTheReadableCode) {
       const double length = pathLength(unit, k.X_WB);
       EXPECT_NEAR(lengths(i, u), length, kExact * length) << unit.name;
       EXPECT_NEAR(lengths_too(i, u), length, kExact * length) << unit.name;
+      EXPECT_NEAR(in_single(i, u), length, kSingle_m) << unit.name;
       EXPECT_NEAR(alone.lengths_m()[u], length, kExact * length) << unit.name;
       Eigen::VectorXd gradient = Eigen::VectorXd::Zero(postures_[i].size()), single = gradient;
       for (int e = model_.gradientStart()[u]; e < model_.gradientStart()[u + 1]; ++e) {
@@ -98,10 +101,10 @@ TEST_P(KernelAtEveryIsa, ASweepKeepsTheLongestPathsAndWhoAllowsWhat) {
   const auto read = [&](std::size_t first, PoseTable& table) {
     for (std::size_t i = 0; i < table.poseCount(); ++i) table.set(i, postures_[first + i]);
   };
-  for (const auto precision : {SweepPrecision::Double, SweepPrecision::Single}) {
+  for (const auto precision : {Precision::Double, Precision::Single}) {
     const PostureSweep sweep = sweepPostures(model_, postures_.size(), read, precision);
     for (std::size_t u = 0; u < longest.size(); ++u) {
-      const double tolerance = precision == SweepPrecision::Double ? kExact : 1e-5;
+      const double tolerance = precision == Precision::Double ? kExact : 1e-5;
       EXPECT_NEAR(sweep.longest_m[u], longest[u], tolerance) << musculature().units[u].name;
       const auto at = segmentPoses(skeleton(), postures_[sweep.longest_posture[u]]);
       EXPECT_NEAR(pathLength(musculature().units[u], at), sweep.longest_m[u], kExact);

@@ -55,7 +55,7 @@ TEST(Retarget, EveryPostureOfTheSetStaysValid) {
   ASSERT_EQ(result.outcome, Outcome::Converged);
   const CompiledModel model{result.model.skeleton, result.model.musculature};
   const auto read = [&](std::size_t first, PoseTable& table) { reference().poses().read(first, table); };
-  const PostureSweep sweep = sweepPostures(model, reference().poses().size(), read, SweepPrecision::Single);
+  const PostureSweep sweep = sweepPostures(model, reference().poses().size(), read, Precision::Single);
   EXPECT_EQ(sweep.validCount(), reference().poses().size());
 }
 
