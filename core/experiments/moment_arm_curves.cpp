@@ -25,7 +25,22 @@ MomentArmCurve curveOf(const Model& model, const std::string& body, const std::v
   return curve;
 }
 
+/// Units of the right side that turn the reference the motion's way.
+std::vector<int> turning(const RetargetReference& reference, const JointMotion& motion, int samples) {
+  std::vector<int> units;
+  const auto& all = reference.model().musculature.units;
+  for (std::size_t u = 0; u < all.size(); ++u)
+    if (all[u].name.ends_with("_r") &&
+        curveOf(reference.model(), "", {static_cast<int>(u)}, motion, samples).mean_m > 0)
+      units.push_back(static_cast<int>(u));
+  return units;
+}
+
 }  // namespace
+
+std::vector<MomentArmQuestion> hipMomentArms() {
+  return {{"", "hip_extension"}, {"", "hip_flexion"}};
+}
 
 std::vector<MomentArmQuestion> paperMomentArms() {
   return {
@@ -35,7 +50,8 @@ std::vector<MomentArmQuestion> paperMomentArms() {
 MomentArmFigure momentArmFigure(const RetargetReference& reference, std::span<const Character> characters,
                                 const MomentArmQuestion& question, int samples) {
   const JointMotion& motion = findMotion(reference.motions(), question.motion);
-  const std::vector<int> units = unitsNamed(reference.model().musculature, question.muscle);
+  const std::vector<int> units = question.muscle.empty() ? turning(reference, motion, samples)
+                                                         : unitsNamed(reference.model().musculature, question.muscle);
   MomentArmFigure figure{question, motion.title, motion.coordinate, {}, {}};
   for (int i = 0; i < samples; ++i) figure.angle_deg.push_back(motion.angle_deg(double(i) / (samples - 1)));
   figure.curves.push_back(curveOf(reference.model(), "reference", units, motion, samples));

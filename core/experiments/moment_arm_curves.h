@@ -16,6 +16,9 @@ struct MomentArmQuestion {
 };
 /// The three of the paper's figure.
 std::vector<MomentArmQuestion> paperMomentArms();
+/// Everything on the right side that extends or flexes the hip of the reference, on average over the motion: muscle
+/// is empty.
+std::vector<MomentArmQuestion> hipMomentArms();
 
 /// Moment arm of a muscle over a motion, positive = turns the motion's way [m]; units of one muscle averaged by their
 /// maximal forces.

@@ -15,18 +15,24 @@ std::optional<int> against(const MomentArmFigure& figure, const std::string& bod
   return std::nullopt;
 }
 
-Verdict verdictOf(const std::vector<MomentArmFigure>& figures, const std::string& body, int wanted) {
+std::string nameOf(const MomentArmQuestion& question) {
+  return question.muscle.empty() ? "all of " + question.motion : question.muscle;
+}
+
+/// Of a hip extensor and a hip flexor: what the claim is about.
+Verdict verdictOf(const std::vector<MomentArmFigure>& figures, const std::string& body, int wanted,
+                  const std::string& what) {
   int as_claimed = 0;
   std::string ours;
-  for (std::size_t i = 0; i < 2; ++i) {  // hip extensor and flexor: what the claim is about
+  for (std::size_t i = 0; i < 2; ++i) {
     const MomentArmFigure& figure = figures[i];
     as_claimed += against(figure, body) == wanted;
     for (const MomentArmCurve& curve : figure.curves)
       if (curve.body == body)
         ours +=
-            (i ? ", " : "") + figure.question.muscle + " x " + fixed(curve.mean_m / figure.curves.front().mean_m, 2);
+            (i ? ", " : "") + nameOf(figure.question) + " x " + fixed(curve.mean_m / figure.curves.front().mean_m, 2);
   }
-  return {body + ": hip extensor and flexor", wanted > 0 ? "larger" : "smaller", "shown", ours, as_claimed == 2};
+  return {body + ": " + what, wanted > 0 ? "larger" : "smaller", "shown", ours, as_claimed == 2};
 }
 
 /// The same bodies as they are before step 1, or routed by another method.
@@ -46,8 +52,10 @@ std::string methodsText(ExperimentContext& context, std::span<const Character> c
                                paper = routedBy(RetargetMethod::Paper, context, characters);
   std::vector<std::string> header = {"over the reference's"};
   std::vector<std::vector<std::string>> table;
-  for (const MomentArmQuestion& question : paperMomentArms()) {
-    std::vector<std::string>& row = table.emplace_back(1, question.muscle);
+  std::vector<MomentArmQuestion> questions = paperMomentArms();
+  for (const MomentArmQuestion& question : hipMomentArms()) questions.push_back(question);
+  for (const MomentArmQuestion& question : questions) {
+    std::vector<std::string>& row = table.emplace_back(1, nameOf(question));
     std::vector<MomentArmFigure> figures;
     for (const std::span<const Character> bodies : {std::span{naive}, std::span{paper}, characters})
       figures.push_back(momentArmFigure(context.reference(), bodies, question));
@@ -98,7 +106,13 @@ ExperimentReport momentArmsReport(ExperimentContext& context) {
       std::string{
           "Means over the motion, positive = turns that way; parts of a muscle weighted by their maximal forces.\n"} +
       methodsText(context, others);
-  report.verdicts = {verdictOf(figures, "alien", 1), verdictOf(figures, "hulk", -1), verdictOf(figures, "dwarf", -1)};
+  std::vector<MomentArmFigure> groups;
+  for (const MomentArmQuestion& question : hipMomentArms())
+    groups.push_back(momentArmFigure(context.reference(), others, question));
+  for (const auto& [body, wanted] : {std::pair{"alien", 1}, {"hulk", -1}, {"dwarf", -1}}) {
+    report.verdicts.push_back(verdictOf(figures, body, wanted, "hip extensor and flexor"));
+    report.verdicts.push_back(verdictOf(groups, body, wanted, "all hip extensors and flexors"));
+  }
   report.result = {{"figures", list}};
   return report;
 }
