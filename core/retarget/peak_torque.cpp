@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/retarget/bounded_step_internal.h"
@@ -76,6 +78,24 @@ class PeakSearch {
     }
     minimize(Part::Angles, kMost, job);
     keepIfBetter();
+  }
+
+  /// Both sides with the ratios of the better one, unless that leaves fewer motions within the target: the search
+  /// goes through them one after the other and may end in two places.
+  void makeSidesAlike() {
+    std::optional<std::pair<Rank, MotionTorques::State>> better;
+    for (const bool from_second : {false, true}) {
+      Eigen::VectorXd ratio = best_.ratio;
+      for (std::size_t u = 0; u < options_.mirror_of.size(); ++u) {
+        const auto [first, second] = std::minmax({static_cast<int>(u), options_.mirror_of[u]});
+        if (first >= 0) ratio[Eigen::Index(u)] = best_.ratio[from_second ? second : first];
+      }
+      MotionTorques::State state = best_;
+      torques_.move(state, ratio);
+      const Rank reached = rank(state);
+      if (!better || better->first < reached) better.emplace(reached, std::move(state));
+    }
+    if (better->first.within >= best_rank_.within) std::tie(best_rank_, best_) = std::move(*better);
   }
 
  private:
@@ -241,6 +261,7 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
   if (!search.isRight()) {
     search.bringWithin(job);
     search.bringNear(job);
+    if (!options.mirror_of.empty()) search.makeSidesAlike();
   }
   if (job.cancelled()) return {.outcome = Outcome::Cancelled};
   setRatios(musculature, search.bestRatios());

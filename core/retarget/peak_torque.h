@@ -24,6 +24,9 @@ struct PeakTorqueOptions {
   double largest_change = 0.3;  ///< of a ratio
   double ratio_price = 1e-4;    ///< of a squared relative change, against squared shares of the greatest torque
   int most_iterations = 200;
+  /// By unit: its counterpart on the other side (-1: none), in a body whose sides are alike; both then keep the same
+  /// ratio if that costs no motion. Empty: the sides differ.
+  std::vector<int> mirror_of;
 };
 
 struct PeakTorqueResult {

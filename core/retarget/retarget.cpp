@@ -127,6 +127,7 @@ Retargeted retargeted(const RetargetReference& reference, const ShapeParameters&
                                                         reference.unitsOfMotion(), reference.motions());
   PeakTorqueOptions peak_options;
   if (naive || !options.peak_torque) peak_options.most_iterations = 0;
+  if (shape.sides[0] == shape.sides[1]) peak_options.mirror_of = reference.routing().mirrorOf();
   const auto optimize = options.method == RetargetMethod::Paper ? descendPeakTorque : optimizePeakTorque;
   PeakTorqueResult peaks = optimize(*result.torque_geometry, reference.motions(), reference.peakThetas(),
                                     result.model.musculature, peak_options, step(job, 0.8, 1));
