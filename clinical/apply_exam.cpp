@@ -5,17 +5,16 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <numeric>
 
 #include "clinical/physical_exam.h"
+#include "core/angle.h"
 #include "core/ceres_job_internal.h"
 #include "core/rom/exam_sweep.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kReferenceMass_kg = 75;  // thresholds are stated for this body
 constexpr double kLeastFactor = 0.6, kMostFactor = 1.4;
 constexpr double kFactorPrior = 0.3;  // SD of the weak pull to 1: moves a measured angle by less than 0.5 deg

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/landmark_protocol.h"
 #include "core/skeleton/population.h"
@@ -12,7 +12,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kCommonVariance = 0.9;  ///< share of a parameter's variance that both sides have in common
 constexpr double kSoleThickness_m = 0.008;
 

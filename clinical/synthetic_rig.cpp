@@ -1,14 +1,12 @@
 #include "clinical/synthetic_rig.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "clinical/random_source.h"
+#include "core/angle.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// Rows are the view's axes in the world: u, v, beam. Hung so that v runs down and u as the orientation says.
 Eigen::Matrix3d viewAxes(const FilmGeometry& film) {

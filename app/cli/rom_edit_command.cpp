@@ -1,10 +1,10 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
+#include "core/angle.h"
 #include "core/rom/rom_edit_experiment.h"
 #include "core/rom/rom_edit_json.h"
 #include "core/rom/rom_limits.h"
@@ -14,7 +14,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr char kWhere[] = "sinew rom-edit";
 
 struct RomEditCommandOptions {

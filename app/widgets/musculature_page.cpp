@@ -8,13 +8,13 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
 #include "app/widgets/controls.h"
 #include "app/widgets/model_view.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/skeleton/clinical_angles.h"
@@ -23,7 +23,6 @@ namespace sinew {
 namespace {
 
 constexpr double kSmallestArm_m = 0.001;  // arms below a millimetre only crowd the card
-constexpr double kDegree = std::numbers::pi / 180;
 
 double lengthFactor(const Model& model, const std::string& unit) {
   const auto found = model.length_factors.find(unit);
@@ -40,7 +39,7 @@ std::vector<std::pair<QString, QString>> factsOf(const Model& model, const Muscu
       {QObject::tr("Isometric force"), figure(unit.max_isometric_force_N, 0) + " N"},
       {QObject::tr("Optimal fibre length"), figure(1000 * unit.optimal_fiber_length_m, 1) + " mm"},
       {QObject::tr("Tendon slack length"), figure(1000 * unit.tendon_slack_length_m, 1) + " mm"},
-      {QObject::tr("Pennation"), figure(unit.pennation_angle_at_optimal_rad / kDegree, 1) + "°"},
+      {QObject::tr("Pennation"), figure(unit.pennation_angle_at_optimal_rad / kRadPerDeg, 1) + "°"},
       {QObject::tr("Exam length factor"), figure(lengthFactor(model, unit.name), 3)},
       {QObject::tr("Path length, on the images"), figure(1000 * length_m, 1) + " mm"},
       {QObject::tr("Fibre / optimum"), figure(state.normalized_fiber_length, 2)},

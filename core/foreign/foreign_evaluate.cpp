@@ -1,16 +1,14 @@
 #include "core/foreign/foreign_evaluate.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/skeleton/posture_file.h"
 #include "core/text.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 void refuseFollower(const ForeignModel& model, int coordinate) {
   const ForeignCoupling* coupling = model.couplingOf(coordinate);

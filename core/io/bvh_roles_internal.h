@@ -1,17 +1,15 @@
 #pragma once
 #include <Eigen/Core>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/angle.h"
 #include "core/io/bvh.h"
 #include "core/skeleton/kinematics.h"
 
 namespace sinew {
 
 // Which joint of a CMU-style skeleton carries which of our segments; both the import and the export of motions ask.
-
-inline constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 /// A segment and the joint of the file that carries it.
 struct BvhRole {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/kernel/batch.h"
 #include "core/muscle/hill.h"
 #include "core/retarget/length_curve.h"
@@ -14,14 +14,13 @@ namespace {
 
 constexpr int kSamples = TorqueGeometry::kSamples;
 constexpr double kStep_rad = 1e-4;  // of the differences that moment arms are taken from
-constexpr double kRadians = std::numbers::pi / 180;
 
 double thetaOf(int sample) {
   return double(sample) / (kSamples - 1);
 }
 
 double span_rad(const JointMotion& motion) {
-  return std::abs(motion.end_deg - motion.start_deg) * kRadians;
+  return std::abs(motion.end_deg - motion.start_deg) * kRadPerDeg;
 }
 
 }  // namespace

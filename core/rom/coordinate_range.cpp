@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/muscle_role.h"
@@ -13,8 +13,7 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSample_rad = 3 * kDegree;
+constexpr double kSample_rad = 3 * kRadPerDeg;
 constexpr int kBisections = 9;  // 3 deg / 2^9 = 0.006 deg
 
 /// The unit with the least length to spare when one coordinate takes a value.

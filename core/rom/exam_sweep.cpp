@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/muscle_role.h"
@@ -12,7 +12,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kStep_deg = 1;     // a length table of this step interpolates to about 2 um
 constexpr double kMargin_deg = 60;  // beyond both ends of the sweep: contractures, and slope for the solver
 

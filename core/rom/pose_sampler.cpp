@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kTolerance_rad = 1e-9;
 
 /// Halton sequence with digits permuted by the seed (plain Halton lines up in high dimensions).

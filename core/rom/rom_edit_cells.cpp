@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "core/angle.h"
 #include "core/kernel/batch.h"
 #include "core/rom/rom_cells_internal.h"
 #include "core/rom/rom_edit_cells_internal.h"
@@ -12,8 +12,8 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kBeyondAthlete_rad = 30 * kDegree;  // as far as the cells of a hinge go: edits may go beyond stops
+constexpr double kBeyondAthlete_rad =
+    30 * kRadPerDeg;  // as far as the cells of a hinge go: edits may go beyond stops
 
 Musculature onlyUnits(const Musculature& all, const std::vector<int>& units) {
   Musculature some;
@@ -55,16 +55,16 @@ JointCells::JointCells(const Model& model, int joint, const std::vector<HeldPost
     }
   } else {
     const Coordinate& c = model.skeleton.coordinates[first_coordinate_];
-    const double low = std::floor((c.athlete_min_rad - kBeyondAthlete_rad) / kDegree);
-    const double high = std::ceil((c.athlete_max_rad + kBeyondAthlete_rad) / kDegree);
-    first_angle_rad_ = (low + 0.5) * kDegree;  // cells between whole degrees: no stop lies on a cell
+    const double low = std::floor((c.athlete_min_rad - kBeyondAthlete_rad) / kRadPerDeg);
+    const double high = std::ceil((c.athlete_max_rad + kBeyondAthlete_rad) / kRadPerDeg);
+    first_angle_rad_ = (low + 0.5) * kRadPerDeg;  // cells between whole degrees: no stop lies on a cell
     cells_ = static_cast<std::size_t>(high - low);
   }
   measure(job);
 }
 
 double JointCells::angle_rad(std::size_t cell) const {
-  return first_angle_rad_ + double(cell) * kDegree;
+  return first_angle_rad_ + double(cell) * kRadPerDeg;
 }
 
 Posture JointCells::posture(const Posture& held, std::size_t cell) const {

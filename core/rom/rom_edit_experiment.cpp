@@ -1,13 +1,10 @@
 #include "core/rom/rom_edit_experiment.h"
 
-#include <numbers>
-
+#include "core/angle.h"
 #include "core/rom/pose_sampler.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 std::vector<RomEdits> experimentEdits() {
   const auto forward = [](double deg) { return RomTilt{.towards = "forward", .angle_rad = deg * kRadPerDeg}; };

@@ -1,14 +1,12 @@
 #include "core/rom/rom_edit_json.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/file.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// Degrees that read back as the same radians.
 double degrees(double rad) {

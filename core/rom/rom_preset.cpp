@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/strict_json.h"
@@ -11,8 +11,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 std::string shortNumber(double value) {
   char text[32];

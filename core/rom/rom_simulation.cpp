@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/rom/movement_internal.h"
@@ -12,7 +12,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kStep_deg = 2;
 constexpr double kDifference_deg = 0.1;  // of the central difference that gives dl/ds: good to some um/rad
 

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "core/skeleton/population.h"
 #include "core/skeleton/shape_json.h"
 #include "core/skeleton/skeleton.h"
@@ -10,7 +10,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kLeastFactor = 0.01, kGreatestFactor = 100;  // beyond it is a wrong unit
 
 /// "femur_r.torsion" -> "femur_r", "torsion".

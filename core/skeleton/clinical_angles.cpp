@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/skeleton/kinematics_internal.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// First rotational coordinate of a joint and its axes (1 or 3).
 int firstRotation(const Joint& joint) {

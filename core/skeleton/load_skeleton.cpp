@@ -3,6 +3,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/skeleton/skeleton.h"
@@ -12,8 +13,6 @@ namespace sinew {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 Eigen::Vector3d vectorFrom(const json& j) {
   return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// SD of a clinical coordinate of a standing body.
 double standingSd_rad(const Coordinate& coordinate) {

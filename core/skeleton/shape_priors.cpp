@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/file.h"
 #include "core/skeleton/population.h"
 #include "core/strict_json.h"
@@ -8,8 +8,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// "femur.torsion" -> "femur_r.torsion", "femur_l.torsion"; names of the midline stay.
 std::vector<std::string> parametersOf(const std::string& name) {

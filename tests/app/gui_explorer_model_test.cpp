@@ -9,6 +9,7 @@
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/explorer/rom_study.h"
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 #include "gui_support.h"
 #include "tests/support/plain_model.h"
@@ -17,8 +18,6 @@ namespace sinew {
 namespace {
 
 using test::waitUntil;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 RomMap fullMap(const std::string& joint, bool valid) {
   RomMap map{joint, {-Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX()}, {}};
@@ -106,7 +105,7 @@ TEST_F(ExplorerModel, RomStudyAsksForBothAnglesAndKeepsTheLastAnswer) {
   std::vector<double> knees_deg;
   RomStudy study{[&](const Model& model, const std::string& joint, const Posture& held) {
     const double knee_deg =
-        clinicalFromPosture(model.skeleton, held)[model.skeleton.coordinateIndex("knee_flexion_r")] / kDegree;
+        clinicalFromPosture(model.skeleton, held)[model.skeleton.coordinateIndex("knee_flexion_r")] / kRadPerDeg;
     knees_deg.push_back(knee_deg);
     return fullMap(joint, knee_deg > 45);
   }};

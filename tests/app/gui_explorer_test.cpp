@@ -14,12 +14,12 @@
 #include <QTableView>
 #include <QTest>
 #include <algorithm>
-#include <numbers>
 
 #include "app/widgets/explorer/explorer_page.h"
 #include "app/widgets/explorer/range_slider.h"
 #include "app/widgets/model_view.h"
 #include "app/widgets/vtk_view.h"
+#include "core/angle.h"
 #include "tests/support/resources.h"
 #include "window_tour.h"
 
@@ -32,7 +32,6 @@ using test::waitUntil;
 using ::testing::HasSubstr;
 
 constexpr int kLimit_ms = 120'000;  // a loaded machine with a software renderer
-constexpr double kDegree = std::numbers::pi / 180;
 
 class ExplorerTour : public test::WindowTour {
  protected:
@@ -57,7 +56,7 @@ class ExplorerTour : public test::WindowTour {
     letEventsRun(100);
   }
   double degrees(const char* coordinate) {
-    return explorer().clinical()[explorer().model()->skeleton.coordinateIndex(coordinate)] / kDegree;
+    return explorer().clinical()[explorer().model()->skeleton.coordinateIndex(coordinate)] / kRadPerDeg;
   }
 
   void screenshot(const QString& name) { WindowTour::screenshot("explorer-" + name, test::usualSizes()); }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <set>
 
 #include "app/model/retarget/body_solver.h"
@@ -13,6 +12,7 @@
 #include "app/model/retarget/rom_edit_study.h"
 #include "app/model/retarget/rom_handles.h"
 #include "app/model/retarget/shape_form.h"
+#include "core/angle.h"
 #include "core/rom/pose_sampler.h"
 #include "gui_support.h"
 #include "tests/support/plain_model.h"
@@ -24,9 +24,8 @@ namespace {
 using test::waitUntil;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kHalfStep_rad = 0.25 * kDegree + 1e-9;  // drags are rounded to half a degree
-constexpr int kLimit_ms = 60'000;                        // a loaded machine
+constexpr double kHalfStep_rad = 0.25 * kRadPerDeg + 1e-9;  // drags are rounded to half a degree
+constexpr int kLimit_ms = 60'000;                           // a loaded machine
 
 const ShapeField& fieldNamed(const std::string& part, const std::string& quantity) {
   for (const auto& field : shapeFields())
@@ -50,8 +49,8 @@ TEST(ShapeForm, LinkedSidesChangeTogetherAndAnglesAreDegrees) {
   EXPECT_EQ(shape.sides[1].femur.elongation, 1);
   EXPECT_FALSE(hasEqualSides(shape));
   setShownValue(shape, fieldNamed("tibia", "torsion"), 1, true, -30);
-  EXPECT_NEAR(shape.sides[0].tibia.torsion_rad, -30 * kDegree, 1e-12);
-  EXPECT_NEAR(shape.sides[1].tibia.torsion_rad, -30 * kDegree, 1e-12);
+  EXPECT_NEAR(shape.sides[0].tibia.torsion_rad, -30 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(shape.sides[1].tibia.torsion_rad, -30 * kRadPerDeg, 1e-12);
   setShownValue(shape, fieldNamed("trunk", "bend"), 0, false, 12);
   EXPECT_NEAR(shownValue(shape, fieldNamed("trunk", "bend"), 0), 12, 1e-9);
   const std::string words = shapeInWords(shape).toStdString();
@@ -170,9 +169,9 @@ TEST_F(RomHandlesTest, TheConeOfAMapHasItsArea) {
     for (int a = 0; a < RomMap::kAzimuths; ++a)
       for (int t = 6; t < 12; ++t) map.valid[std::size_t(RomMap::cell(t, p, a))] = 1;
   const BallRange range = ballRange(map, centres, 0);
-  EXPECT_NEAR(range.cone_rad, 60 * kDegree, 1e-9);
-  EXPECT_NEAR(range.twist_low_rad, -60 * kDegree, 1e-9);
-  EXPECT_NEAR(range.twist_high_rad, 60 * kDegree, 1e-9);
+  EXPECT_NEAR(range.cone_rad, 60 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(range.twist_low_rad, -60 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(range.twist_high_rad, 60 * kRadPerDeg, 1e-9);
 }
 
 class BodySolverTest : public ::testing::Test {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 #include <random>
 
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/fit_skeleton.h"
 #include "core/skeleton/population.h"
@@ -11,8 +11,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 class BoneFigures : public testing::Test {
  protected:

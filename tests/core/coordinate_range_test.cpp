@@ -1,8 +1,7 @@
 #include "core/rom/coordinate_range.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
-
-#include <numbers>
 
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
@@ -12,8 +11,7 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kBisection_rad = 0.01 * kDegree;  // what the header promises
+constexpr double kBisection_rad = 0.01 * kRadPerDeg;  // what the header promises
 
 /// One muscle from the back of the right thigh to the back of the tibia, just long enough for `longest_at_deg` of
 /// knee flexion: extension beyond that is held.
@@ -39,7 +37,7 @@ TEST(CoordinateRange, EndsWhereTheMuscleReachesItsLongestLength) {
       model.skeleton, postureFromDegrees(model.skeleton, {{"knee_flexion_r", 90}, {"hip_flexion_r", 20}}));
   const int knee = model.skeleton.coordinateIndex("knee_flexion_r");
   const CoordinateRange range = muscleInducedRange(model, bent, knee);
-  EXPECT_NEAR(range.low_rad, 35 * kDegree, kBisection_rad);
+  EXPECT_NEAR(range.low_rad, 35 * kRadPerDeg, kBisection_rad);
   EXPECT_EQ(range.low_unit, model.musculature.unitIndex("back_of_knee_r"));
   EXPECT_EQ(range.high_rad, model.skeleton.coordinates[std::size_t(knee)].stop_max_rad);
   EXPECT_EQ(range.high_unit, -1);  // the joint's own end
@@ -50,7 +48,7 @@ TEST(CoordinateRange, FromAHeldPostureShowsTheNearestFreeInterval) {
   const int knee = model.skeleton.coordinateIndex("knee_flexion_r");
   const CoordinateRange range = muscleInducedRange(model, Eigen::VectorXd::Zero(50), knee);
   EXPECT_FALSE(range.isEmpty());
-  EXPECT_NEAR(range.low_rad, 35 * kDegree, kBisection_rad);
+  EXPECT_NEAR(range.low_rad, 35 * kRadPerDeg, kBisection_rad);
 }
 
 TEST(CoordinateRange, WithoutAFreeAngleNamesTheMuscle) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "core/angle.h"
 #include "core/foreign/foreign_from_model.h"
 #include "core/foreign/length_deviation.h"
 #include "core/model/skeleton_json.h"
@@ -14,8 +13,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Without muscles: the stops alone.
 const Model& bare() {
@@ -47,7 +44,7 @@ Model edited(const Model& before, const RomEdits& edits) {
 }
 
 const RomEdits kNarrowShoulder = {{.joint = "shoulder_r", .cone_factor = 0.7, .twist_factor = 0.8}};
-const RomEdits kTiltedHip = {{.joint = "hip_r", .cone_factor = 0.63, .tilt = {"forward", {}, 30 * kDegree}}};
+const RomEdits kTiltedHip = {{.joint = "hip_r", .cone_factor = 0.63, .tilt = {"forward", {}, 30 * kRadPerDeg}}};
 
 TEST(EditedRange, IsTheRangeBeforeAtT) {
   for (const RomEdits& edits : {kNarrowShoulder, kTiltedHip}) {
@@ -63,7 +60,7 @@ TEST(EditedRange, IsTheRangeBeforeAtT) {
 
 TEST(EditedRange, EditsOfAnEditedRangeCompose) {
   // V~(q) = V(T1(T2(q))). A tilt has no middle, so that both ways of saying it are the same.
-  const RomEdits tilt = {{.joint = "hip_r", .tilt = {"outward", {}, 12 * kDegree}}};
+  const RomEdits tilt = {{.joint = "hip_r", .tilt = {"outward", {}, 12 * kRadPerDeg}}};
   const RomEdits both = {kTiltedHip.front(), tilt.front()};
   Model twice = edited(bare(), kTiltedHip);
   const RomCentres centres{std::vector<double>(bare().skeleton.joints.size()),
@@ -85,7 +82,7 @@ TEST(EditedRange, MarginsAndClinicalRangesAskTheSame) {
   const CoordinateRange range = muscleInducedRange(model, clinical, flexion);
   const CoordinateRange before = muscleInducedRange(bare(), clinical, flexion);
   ASSERT_FALSE(range.isEmpty());
-  EXPECT_LT(range.high_rad, before.high_rad - 10 * kDegree);
+  EXPECT_LT(range.high_rad, before.high_rad - 10 * kRadPerDeg);
   EXPECT_EQ(range.high_unit, -1);
   const auto valid = [&](double flexion_rad) {
     Eigen::VectorXd at = clinical;
@@ -98,7 +95,7 @@ TEST(EditedRange, MarginsAndClinicalRangesAskTheSame) {
     return holds;
   };
   EXPECT_TRUE(valid(range.high_rad));
-  EXPECT_FALSE(valid(range.high_rad + 0.1 * kDegree));  // the end is found to 0.01 degrees
+  EXPECT_FALSE(valid(range.high_rad + 0.1 * kRadPerDeg));  // the end is found to 0.01 degrees
 }
 
 TEST(EditedRange, IsStoredWithTheSkeleton) {

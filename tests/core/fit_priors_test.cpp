@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "core/file.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/landmark_protocol.h"
@@ -15,8 +15,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 const ShapePrior& priorOf(const std::vector<ShapePrior>& priors, const std::string& parameter) {
   const auto at = std::ranges::find(priors, parameter, &ShapePrior::parameter);

@@ -1,4 +1,5 @@
 #include "core/skeleton/fit_skeleton.h"
+#include "core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <thread>
 
 #include "core/skeleton/clinical_angles.h"
@@ -22,8 +22,6 @@ using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 class FitSkeleton : public testing::Test {
  protected:

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 
+#include "core/angle.h"
 #include "core/muscle/muscle_path.h"
 #include "core/retarget/unit_problem_internal.h"
 #include "tests/support/retarget_reference.h"
@@ -10,16 +10,14 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 const RetargetReference& reference() {
   return *test::retargetReference();
 }
 
 ShapeParameters shortTurnedLeg() {
   ShapeParameters shape;
-  shape.sides[0].femur = {.elongation = 0.85, .torsion_rad = 20 * kDegree};
-  shape.sides[0].tibia = {.elongation = 1.2, .torsion_rad = -15 * kDegree};
+  shape.sides[0].femur = {.elongation = 0.85, .torsion_rad = 20 * kRadPerDeg};
+  shape.sides[0].tibia = {.elongation = 1.2, .torsion_rad = -15 * kRadPerDeg};
   return shape;
 }
 
@@ -162,9 +160,10 @@ TEST(RetargetRouting, AttachmentsStayOnTheirBonesAndViaPointsOutside) {
       const auto points = pathPoints(unit, X_WB);
       for (std::size_t p = 1; p + 1 < points.size(); ++p)
         for (std::size_t s = 0; s < spanned.size(); ++s)
-          if (spanned[s])
+          if (spanned[s]) {
             EXPECT_GE(bones.nearest(int(s), X_WB[s].inverse() * points[p]).nearest.distance_m, 0)
                 << unit.name << ", point " << p;
+          }
     }
   }
 }

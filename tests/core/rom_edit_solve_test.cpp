@@ -1,8 +1,8 @@
 #include "core/rom/rom_edit_solve.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <set>
 
 #include "core/error.h"
@@ -20,8 +20,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 const Model& reference() {
   static const Model model = loadReferenceModel(test::resourceDir());
   return model;
@@ -38,9 +36,9 @@ RomEditSolver& solver() {
 }
 
 RomTilt towards(const char* name, double deg) {
-  return {.towards = name, .angle_rad = deg * kDegree};
+  return {.towards = name, .angle_rad = deg * kRadPerDeg};
 }
-const RomEdits kHipForward = {{.joint = "hip_r", .cone_factor = 0.63, .tilt = {"forward", {}, 30 * kDegree}}};
+const RomEdits kHipForward = {{.joint = "hip_r", .cone_factor = 0.63, .tilt = {"forward", {}, 30 * kRadPerDeg}}};
 
 bool sameUnit(const MusculotendonUnit& a, const MusculotendonUnit& b) {
   return a.optimal_fiber_length_m == b.optimal_fiber_length_m && a.tendon_slack_length_m == b.tendon_slack_length_m;
@@ -106,7 +104,7 @@ TEST(RomEditSolve, AHingeHeldByAStringFollowsExactly) {
   const int knee = model.skeleton.coordinateIndex("knee_flexion_r");
   for (const double deg : {-60.0, 60.0}) {
     Posture q = zeroPosture(model.skeleton);
-    q[knee] = deg * kDegree;
+    q[knee] = deg * kRadPerDeg;
     poses.add(q);
   }
   RomEditSolver on_string{model, std::move(poses)};
@@ -114,21 +112,21 @@ TEST(RomEditSolve, AHingeHeldByAStringFollowsExactly) {
     const RomEditResult result = on_string.solve({{.joint = "knee_r", .range_factor = 0.5}}, {.method = method});
     ASSERT_EQ(result.outcome, Outcome::Converged);
     const MusculotendonUnit& unit = result.model.musculature.units[0];
-    EXPECT_NEAR(longestLength_m(unit), 0.2 * std::sin(15 * kDegree),
+    EXPECT_NEAR(longestLength_m(unit), 0.2 * std::sin(15 * kRadPerDeg),
                 1e-6);  // postures are stored in single precision
     EXPECT_NEAR(unit.tendon_slack_length_m / unit.optimal_fiber_length_m, 0.02 / 1.03 / 0.05, 1e-12);
     for (const RomEditCells& c : result.cells) EXPECT_EQ(c.differing, 0) << c.held;
     ASSERT_EQ(result.stops.size(), 1u);
     EXPECT_NEAR(result.stops[0].after_max_rad, result.stops[0].before_max_rad / 2, 1e-6);
     const auto limits = romLimits(result.model, model.skeleton.jointIndex("knee_r"), zeroPosture(model.skeleton));
-    EXPECT_NEAR(limits[0].high_rad, 30 * kDegree, 0.01 * kDegree);
+    EXPECT_NEAR(limits[0].high_rad, 30 * kRadPerDeg, 0.01 * kRadPerDeg);
     EXPECT_EQ(limits[0].high_by, "string");
   }
 }
 
 TEST(RomEditSolve, NothingIsTouchedThatNeedNotBe) {
   const RomEditResult nothing = solver().solve({{.joint = "hip_r"}, {.joint = "knee_l"}});
-  const RomEditResult knee = solver().solve({{.joint = "knee_r", .range_factor = 0.8, .shift_rad = 10 * kDegree}});
+  const RomEditResult knee = solver().solve({{.joint = "knee_r", .range_factor = 0.8, .shift_rad = 10 * kRadPerDeg}});
   const Kinematics k = clinicalKinematics(reference().skeleton, zeroPosture(reference().skeleton));
   std::set<std::string> changed;
   for (const auto& c : knee.changed) changed.insert(c.unit);
@@ -138,12 +136,12 @@ TEST(RomEditSolve, NothingIsTouchedThatNeedNotBe) {
     EXPECT_TRUE(sameUnit(nothing.model.musculature.units[i], before)) << before.name;
     const bool spans =
         std::ranges::count(spannedCoordinates(before, k), reference().skeleton.coordinateIndex("knee_flexion_r"));
-    if (!spans) EXPECT_TRUE(sameUnit(knee.model.musculature.units[i], before)) << before.name;
+    EXPECT_TRUE(spans || sameUnit(knee.model.musculature.units[i], before)) << before.name;
     EXPECT_EQ(sameUnit(knee.model.musculature.units[i], before), !changed.contains(before.name)) << before.name;
   }
   for (std::size_t i = 0; i < reference().skeleton.coordinates.size(); ++i) {
     const Coordinate &before = reference().skeleton.coordinates[i], &after = knee.model.skeleton.coordinates[i];
-    if (before.name != "knee_flexion_r") EXPECT_EQ(before.stop_max_rad, after.stop_max_rad) << before.name;
+    EXPECT_TRUE(before.name == "knee_flexion_r" || before.stop_max_rad == after.stop_max_rad) << before.name;
   }
   EXPECT_TRUE(nothing.changed.empty() && nothing.stops.empty() && nothing.model.length_factors.empty());
 }
@@ -152,7 +150,7 @@ TEST(RomEditSolve, ThisMethodIsNeverWorseThanThePapers) {
   for (const RomEdits& edits :
        {kHipForward, RomEdits{{.joint = "shoulder_r", .cone_factor = 0.7, .twist_factor = 0.8}},
         RomEdits{{.joint = "ankle_r", .cone_factor = 0.7, .tilt = towards("down", 10)}},
-        RomEdits{{.joint = "knee_r", .range_factor = 0.8, .shift_rad = 10 * kDegree}},
+        RomEdits{{.joint = "knee_r", .range_factor = 0.8, .shift_rad = 10 * kRadPerDeg}},
         RomEdits{{.joint = "hip_r", .tilt = towards("forward", 15)}, {.joint = "knee_r", .range_factor = 0.7}}}) {
     const RomEditResult paper = solver().solve(edits, {.method = RomEditMethod::Paper}),
                         sinew = solver().solve(edits);

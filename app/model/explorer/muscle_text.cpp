@@ -1,9 +1,9 @@
 #include "app/model/explorer/muscle_text.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "app/model/stage_text.h"
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/muscle_role.h"
@@ -14,7 +14,6 @@
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSpecificTension_Npcm2 = 60;  // what the published F_max are made with (Rajagopal 2016)
 
 QString tr(const char* text) {
@@ -69,7 +68,7 @@ CardSection parameters(const Model& model, const MusculotendonUnit& unit) {
         figure(unit.max_isometric_force_N / kSpecificTension_Npcm2, 1) + " cm²"},
        {tr("Optimal fibre length"), figure(1000 * unit.optimal_fiber_length_m, 1) + " mm"},
        {tr("Tendon slack length"), figure(1000 * unit.tendon_slack_length_m, 1) + " mm"},
-       {tr("Pennation at optimal length"), figure(unit.pennation_angle_at_optimal_rad / kDegree, 1) + "°"}}};
+       {tr("Pennation at optimal length"), figure(unit.pennation_angle_at_optimal_rad / kRadPerDeg, 1) + "°"}}};
   if (const auto factor = model.length_factors.find(unit.name); factor != model.length_factors.end())
     section.lines.emplace_back(tr("Length factor of the examination"), figure(factor->second, 3));
   section.lines.emplace_back(tr("Source"), QString::fromStdString(unit.source));
@@ -164,7 +163,7 @@ QString rangeText(const Model& model, const Coordinate& coordinate, const Coordi
     return unit < 0 ? held(unit) : nameOf(model, unit);
   };
   return tr("Free %1° (%2) to %3° (%4)")
-      .arg(figure(range.low_rad / kDegree, 0), sided(range.low_unit), figure(range.high_rad / kDegree, 0),
+      .arg(figure(range.low_rad / kRadPerDeg, 0), sided(range.low_unit), figure(range.high_rad / kRadPerDeg, 0),
            sided(range.high_unit));
 }
 

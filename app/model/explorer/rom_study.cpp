@@ -1,18 +1,16 @@
 #include "app/model/explorer/rom_study.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 Posture withCoordinate(const Skeleton& skeleton, const Posture& held, const std::string& name, double deg) {
   Eigen::VectorXd clinical = clinicalFromPosture(skeleton, held);
-  clinical[skeleton.coordinateIndex(name)] = deg * kDegree;
+  clinical[skeleton.coordinateIndex(name)] = deg * kRadPerDeg;
   return postureFromClinical(skeleton, clinical);
 }
 
@@ -58,7 +56,7 @@ RomQuestion firstQuestion(const Skeleton& skeleton, const std::string& joint) {
     if (!neighbour && other.child == own.parent) neighbour = firstAngleOf(skeleton, other);
   if (!neighbour) return question;
   question.with = neighbour->name;
-  question.with_deg[1] = std::min(kBent_deg, std::floor(neighbour->stop_max_rad / kDegree + 1e-9));
+  question.with_deg[1] = std::min(kBent_deg, std::floor(neighbour->stop_max_rad / kRadPerDeg + 1e-9));
   return question;
 }
 

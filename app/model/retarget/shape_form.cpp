@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/model/stage_text.h"
+#include "core/angle.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr const char* kParts[] = {"trunk", "pelvis", "neck",    "head", "femur",
                                   "tibia", "foot",   "humerus", "ulna", "hand"};
@@ -94,12 +92,12 @@ QString fieldMeaning(const ShapeField& field) {
 
 double shownValue(const ShapeParameters& shape, const ShapeField& field, int side) {
   const double value = toVector(shape)[std::size_t(field.place[std::size_t(field.isSided() ? side : 0)])];
-  return field.isAngle() ? value / kDegree : value;
+  return field.isAngle() ? value / kRadPerDeg : value;
 }
 
 void setShownValue(ShapeParameters& shape, const ShapeField& field, int side, bool linked, double shown) {
   auto values = toVector(shape);
-  const double value = field.isAngle() ? shown * kDegree : shown;
+  const double value = field.isAngle() ? shown * kRadPerDeg : shown;
   for (int s = 0; s < (field.isSided() ? 2 : 1); ++s)
     if (linked || !field.isSided() || s == side) values[std::size_t(field.place[std::size_t(s)])] = value;
   shape = shapeFromVector(values);
@@ -121,7 +119,7 @@ ShownRange sliderRange(const ShapeField& field) {
 }
 
 ShownRange typedRange(const ShapeField& field) {
-  if (field.isAngle()) return {-kGreatestShapeAngle_rad / kDegree, kGreatestShapeAngle_rad / kDegree};
+  if (field.isAngle()) return {-kGreatestShapeAngle_rad / kRadPerDeg, kGreatestShapeAngle_rad / kRadPerDeg};
   return {kLeastShapeRatio, kGreatestShapeRatio};
 }
 

@@ -12,7 +12,6 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 #include <cmath>
-#include <numbers>
 
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
@@ -20,12 +19,11 @@
 #include "app/widgets/controls.h"
 #include "app/widgets/explorer/range_slider.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// "knee flexion" of the knee -> "Flexion": the joint stands above.
 QString shortWords(const QString& words, const QString& joint_words) {
@@ -142,7 +140,7 @@ QWidget* JointPanel::makeJoint(int joint) {
 QWidget* JointPanel::makeRow(int coordinate) {
   const Coordinate& c = explorer_.model()->skeleton.coordinates[std::size_t(coordinate)];
   const QString name = QString::fromStdString(c.name);
-  const double scale = c.translational ? 1 : 1 / kDegree;
+  const double scale = c.translational ? 1 : 1 / kRadPerDeg;
   const QString unit = c.translational ? tr(" m") : QStringLiteral("°");
   const QString more = QString::fromStdString(motionWords(c.name, true)),
                 less = QString::fromStdString(motionWords(c.name, false));

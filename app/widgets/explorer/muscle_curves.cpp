@@ -5,21 +5,19 @@
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
-#include <numbers>
 
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
 #include "app/widgets/curve_plot.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_role.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 template <class Curve>
 std::vector<std::pair<double, double>> sampled(const Curve& curve) {
@@ -140,7 +138,7 @@ void MuscleCurves::showMotion() {
     curve_ = motionCurve(model.skeleton, u, *motion, kSamples);
     curve_key_ = key;
   }
-  const double now_deg = explorer_.clinical()[model.skeleton.coordinateIndex(motion->coordinate)] / kDegree;
+  const double now_deg = explorer_.clinical()[model.skeleton.coordinateIndex(motion->coordinate)] / kRadPerDeg;
   const double low = std::min(motion->start_deg, motion->end_deg),
                high = std::max(motion->start_deg, motion->end_deg);
   std::vector<PlotMark> now;

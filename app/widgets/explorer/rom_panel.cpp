@@ -9,7 +9,6 @@
 #include <QSignalBlocker>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <numbers>
 
 #include "app/model/explorer/explorer.h"
 #include "app/model/stage_text.h"
@@ -19,13 +18,13 @@
 #include "app/widgets/explorer/colour_bar.h"
 #include "app/widgets/explorer/rom_sphere_view.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kSlow_ms = 250;
 
 /// Whether two postures differ in more than the joint itself and the coordinate that is held at two values.
@@ -138,7 +137,7 @@ RomPanel::RomPanel(Explorer& explorer, RomStudy::Mapper mapper, QWidget* parent)
     const auto& answer = study_.answer();
     if (answer && index >= 1 && !answer->question.with.empty())  // the body stands as the map says
       explorer_.setCoordinate(explorer_.model()->skeleton.coordinateIndex(answer->question.with),
-                              answer->question.with_deg[std::size_t(index - 1)] * kDegree);
+                              answer->question.with_deg[std::size_t(index - 1)] * kRadPerDeg);
     emit mapOnBodyChanged();
   });
   connect(&study_, &RomStudy::answered, this, &RomPanel::showAnswer);
@@ -222,7 +221,7 @@ void RomPanel::showAnswer() {
   }
   const auto& maps = answer->maps;
   widest_rad_ = answer->widest_rad();
-  bar_->setScale(tr("Twist range, degrees"), 0, widest_rad_ / kDegree, 0, false, false,
+  bar_->setScale(tr("Twist range, degrees"), 0, widest_rad_ / kRadPerDeg, 0, false, false,
                  [](double t) { return romColour(t, 1); });
   spheres_[1]->setVisible(maps.size() > 1);
   for (std::size_t i = 0; i < maps.size(); ++i) {

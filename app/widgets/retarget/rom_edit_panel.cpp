@@ -8,18 +8,16 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
-#include <numbers>
 
 #include "app/model/retarget/design_files.h"
 #include "app/model/retarget/rom_handles.h"
 #include "app/model/stage_text.h"
 #include "app/widgets/controls.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 
 namespace sinew {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr const char* kSided[] = {"forward", "backward", "outward", "inward", "up", "down"};
 constexpr const char* kMidline[] = {"forward", "backward", "right", "left", "up", "down"};
@@ -131,12 +129,12 @@ RomEditPanel::RomEditPanel(DesignDocument& document, QWidget* parent) : QWidget{
   connect(twist_, &QDoubleSpinBox::valueChanged, this,
           [this](double v) { apply(tr("Width of the twist range"), [v](RomEdit& e) { e.twist_factor = v; }); });
   connect(twist_shift_, &QDoubleSpinBox::valueChanged, this, [this](double v) {
-    apply(tr("Shift of the twist range"), [v](RomEdit& e) { e.twist_shift_rad = v * kDegree; });
+    apply(tr("Shift of the twist range"), [v](RomEdit& e) { e.twist_shift_rad = v * kRadPerDeg; });
   });
   connect(range_, &QDoubleSpinBox::valueChanged, this,
           [this](double v) { apply(tr("Width of the range"), [v](RomEdit& e) { e.range_factor = v; }); });
   connect(shift_, &QDoubleSpinBox::valueChanged, this,
-          [this](double v) { apply(tr("Shift of the range"), [v](RomEdit& e) { e.shift_rad = v * kDegree; }); });
+          [this](double v) { apply(tr("Shift of the range"), [v](RomEdit& e) { e.shift_rad = v * kRadPerDeg; }); });
   connect(reset, &QPushButton::clicked, this, [this] {
     document_.edit(tr("Reset the range of %1").arg(readableName(joint_)), [this](RetargetDesign& d) {
       std::erase_if(d.rom, [this](const RomEdit& e) { return e.joint == joint_; });
@@ -206,7 +204,7 @@ void RomEditPanel::apply(const QString& label, const std::function<void(RomEdit&
 }
 
 void RomEditPanel::applyTilt() {
-  const double angle_rad = tilt_->value() * kDegree;
+  const double angle_rad = tilt_->value() * kRadPerDeg;
   const std::string towards = towards_->currentData().toString().toStdString();
   apply(tr("Tilt of the cone"), [&](RomEdit& e) {
     const bool has_axis = e.tilt.axis_J != std::array<double, 3>{0, 0, 0};
@@ -254,11 +252,11 @@ void RomEditPanel::refresh() {
     field->setValue(value);
   };
   set(cone_, edit.cone_factor);
-  set(tilt_, edit.tilt.angle_rad / kDegree);
+  set(tilt_, edit.tilt.angle_rad / kRadPerDeg);
   set(twist_, edit.twist_factor);
-  set(twist_shift_, edit.twist_shift_rad / kDegree);
+  set(twist_shift_, edit.twist_shift_rad / kRadPerDeg);
   set(range_, edit.range_factor);
-  set(shift_, edit.shift_rad / kDegree);
+  set(shift_, edit.shift_rad / kRadPerDeg);
   {
     const QSignalBlocker block{towards_};
     towards_->clear();

@@ -8,7 +8,6 @@
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <numbers>
 
 #include "app/model/stage_text.h"
 #include "app/scene/rom_patch.h"
@@ -18,15 +17,15 @@
 #include "app/widgets/retarget/range_bar.h"
 #include "app/widgets/retarget/rom_edit_panel.h"
 #include "app/widgets/theme.h"
+#include "core/angle.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFrame_ms = 15;
 
 RangeBar::Range inDegrees(double low_rad, double high_rad) {
-  return {low_rad / kDegree, high_rad / kDegree};
+  return {low_rad / kRadPerDeg, high_rad / kRadPerDeg};
 }
 
 /// "zero" -> "as standing", "hip_flexion_r=90" -> "with hip flexion 90°".
@@ -133,7 +132,7 @@ QWidget* RomEditView::makeSpheres() {
       const auto& skeleton = body_->base->skeleton;
       const int sign = twistSign(skeleton, skeleton.jointIndex(panel_.joint()));
       change(keep, tr("Twist"),
-             [=](RomEdit& e) { setTwist(before, low_deg * kDegree, high_deg * kDegree, sign, e); });
+             [=](RomEdit& e) { setTwist(before, low_deg * kRadPerDeg, high_deg * kRadPerDeg, sign, e); });
     };
   };
   connect(twist_, &RangeBar::dragged, this, twist(false));
@@ -162,7 +161,8 @@ QWidget* RomEditView::makeHinge() {
     return [this, keep](double low_deg, double high_deg) {
       if (!study_.picture()) return;
       const HingeRange before = study_.picture()->hinge_before;
-      change(keep, tr("Range"), [=](RomEdit& e) { setHinge(before, low_deg * kDegree, high_deg * kDegree, e); });
+      change(keep, tr("Range"),
+             [=](RomEdit& e) { setHinge(before, low_deg * kRadPerDeg, high_deg * kRadPerDeg, e); });
     };
   };
   connect(hinge_, &RangeBar::dragged, this, set(false));
@@ -263,8 +263,8 @@ void RomEditView::showHinge() {
   const auto& picture = study_.picture();
   if (!picture || picture->is_ball || picture->joint != panel_.joint()) return;
   const HingeRange now = edited(picture->hinge_before, currentEdit());
-  hinge_->setScale(std::floor(std::min(picture->hinge_before.low_rad, -0.3) / kDegree / 30 - 1) * 30,
-                   std::ceil(std::max(picture->hinge_before.high_rad, 0.3) / kDegree / 30 + 1) * 30);
+  hinge_->setScale(std::floor(std::min(picture->hinge_before.low_rad, -0.3) / kRadPerDeg / 30 - 1) * 30,
+                   std::ceil(std::max(picture->hinge_before.high_rad, 0.3) / kRadPerDeg / 30 + 1) * 30);
   hinge_->setBefore(inDegrees(picture->hinge_before.low_rad, picture->hinge_before.high_rad));
   hinge_->setRange(inDegrees(now.low_rad, now.high_rad));
   const RangeBar::Range reached = inDegrees(picture->hinge_reached.low_rad, picture->hinge_reached.high_rad);
@@ -282,7 +282,7 @@ void RomEditView::showPicture() {
   if (!picture || picture->joint != panel_.joint()) return;
   if (picture->is_ball) {
     const Eigen::Vector3d shaft_J = picture->before->frame.shaft_J;
-    bar_->setScale(tr("Twist range, degrees"), 0, picture->widest_rad / kDegree, 0, false, false,
+    bar_->setScale(tr("Twist range, degrees"), 0, picture->widest_rad / kRadPerDeg, 0, false, false,
                    [](double t) { return romColour(t, 1); });
     before_->setMap(*picture->before, picture->widest_rad, shaft_J);
     before_->setCaption(tr("Before: %1 of %2 cells").arg(picture->before->validCount()).arg(RomMap::kCells));
