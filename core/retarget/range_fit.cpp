@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/kernel/batch.h"
 #include "core/parallel.h"
 #include "core/rom/threshold_fit_internal.h"
 
@@ -19,21 +18,15 @@ struct Interval {
 
 RangeLengths measured(const RangeSamples& samples, const JointRangeSamples& joint, const Model& body,
                       const LongestLengths& bounds) {
-  Musculature units;
   std::vector<Interval> intervals;
   for (const int u : joint.units) {
-    units.units.push_back(body.musculature.units[std::size_t(u)]);
     const double start_m = bounds.start_m[std::size_t(u)];
     intervals.push_back({std::max(bounds.least_m[std::size_t(u)], kShorter * start_m), kLonger * start_m});
   }
-  const CompiledModel model{body.skeleton, units};
   RangeLengths result;
   result.of_units.resize(intervals.size());
-  PoseTable postures{512, std::size_t(model.coordinateCount())}, lengths_m;
-  for (std::size_t first = 0; first < joint.samples.size(); first += postures.poseCount()) {
-    samples.read(joint, first, postures);
-    batchLengths(model, postures, lengths_m, Precision::Single);
-    for (std::size_t i = 0; i < postures.poseCount() && first + i < joint.samples.size(); ++i) {
+  samples.measure(joint, body, [&](std::size_t first, std::size_t count, const PoseTable& lengths_m) {
+    for (std::size_t i = 0; i < count; ++i) {
       bool forbidden = false, open = false;  // by every length that may be chosen; by some
       for (std::size_t u = 0; u < intervals.size(); ++u) {
         forbidden = forbidden || lengths_m(i, u) > intervals[u].high_m;
@@ -45,7 +38,7 @@ RangeLengths measured(const RangeSamples& samples, const JointRangeSamples& join
           result.of_units[u].push_back({lengths_m(i, u), static_cast<std::uint32_t>(result.postures.size())});
       result.postures.push_back(static_cast<std::uint32_t>(first + i));
     }
-  }
+  });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/kernel/batch.h"
+#include "core/muscle/hill.h"
 #include "core/parallel.h"
 #include "core/rom/pose_sampler.h"
 #include "core/rom/rom_cells_internal.h"
@@ -137,23 +138,19 @@ struct Verdict {
 
 /// Of all postures, by the reference.
 std::vector<Verdict> judged(const RangeSamples& ranges, const Model& reference, const JointRangeSamples& joint) {
-  Musculature units;
-  for (const int u : joint.units) units.units.push_back(reference.musculature.units[std::size_t(u)]);
-  const CompiledModel model{reference.skeleton, units};
-  const auto longest_m = model.longest_m();
+  std::vector<double> longest_m;
+  for (const int u : joint.units)
+    longest_m.push_back(longestLength_m(reference.musculature.units[static_cast<std::size_t>(u)]));
   std::vector<Verdict> verdicts(joint.samples.size());
-  PoseTable postures{512, std::size_t(model.coordinateCount())}, lengths_m;
-  for (std::size_t first = 0; first < verdicts.size(); first += postures.poseCount()) {
-    ranges.read(joint, first, postures);
-    batchLengths(model, postures, lengths_m, Precision::Single);
-    for (std::size_t i = 0; i < postures.poseCount() && first + i < verdicts.size(); ++i)
+  ranges.measure(joint, reference, [&](std::size_t first, std::size_t count, const PoseTable& lengths_m) {
+    for (std::size_t i = 0; i < count; ++i)
       for (std::size_t u = 0; u < longest_m.size(); ++u) {
         Verdict& v = verdicts[first + i];
         v.valid = v.valid && lengths_m(i, u) <= longest_m[u];
         v.near = v.near || lengths_m(i, u) > kNear * longest_m[u];
         v.far = v.far || lengths_m(i, u) > kFar * longest_m[u];
       }
-  }
+  });
   return verdicts;
 }
 
@@ -197,6 +194,19 @@ RangeSamples::RangeSamples(const Model& reference) : others_{otherPostures(refer
       for (Sample& sample : joint.samples) sample = mirrored(sample, ball);
     sift(judged(*this, reference, joint), !ball, joint);
   });
+}
+
+void RangeSamples::measure(const JointRangeSamples& joint, const Model& body, const Measured& measured) const {
+  constexpr std::size_t kChunk = 512;
+  Musculature units;
+  for (const int u : joint.units) units.units.push_back(body.musculature.units[static_cast<std::size_t>(u)]);
+  const CompiledModel model{body.skeleton, units};
+  PoseTable postures{kChunk, static_cast<std::size_t>(model.coordinateCount())}, lengths_m;
+  for (std::size_t first = 0; first < joint.samples.size(); first += kChunk) {
+    read(joint, first, postures);
+    batchLengths(model, postures, lengths_m, Precision::Single);
+    measured(first, std::min(kChunk, joint.samples.size() - first), lengths_m);
+  }
 }
 
 void RangeSamples::read(const JointRangeSamples& joint, std::size_t first, PoseTable& table) const {

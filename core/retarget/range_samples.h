@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/kernel/pose_table.h"
@@ -30,10 +31,15 @@ class RangeSamples {
   explicit RangeSamples(const Model& reference);
 
   const std::vector<JointRangeSamples>& joints() const { return joints_; }
-  /// Fills `table` with the postures of a joint from number `first` on, as many as it has room for.
-  void read(const JointRangeSamples& joint, std::size_t first, PoseTable& table) const;
+  /// Path lengths in `body` of the units that span a joint, by posture (numbers `first` to `first + count - 1`) and
+  /// unit, chunk after chunk. The reference is judged and every body measured in this one way, in single precision:
+  /// what nothing has changed about gives the same lengths.
+  using Measured = std::function<void(std::size_t first, std::size_t count, const PoseTable& lengths_m)>;
+  void measure(const JointRangeSamples& joint, const Model& body, const Measured& measured) const;
 
  private:
+  void read(const JointRangeSamples& joint, std::size_t first, PoseTable& table) const;
+
   std::vector<Posture> others_;  ///< zero, then pairs of mirror images
   std::vector<JointRangeSamples> joints_;
 };
