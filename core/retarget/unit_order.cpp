@@ -83,8 +83,8 @@ UnitRouter::Place UnitRouter::inOrder(std::size_t i, const Place& start, const P
   constexpr double kLittle = 1.01;
   const int now = reversals(i, found, nullptr).reversed;
   if (now == 0) return found;
-  const int allowed = std::min(now - 1, reversals(i, start, nullptr).reversed);
-  const bool must = now > reversals(i, start, nullptr).reversed;
+  const int before = reversals(i, start, nullptr).reversed, allowed = std::min(now - 1, before);
+  const bool must = now > before;
   Place best = must ? start : found;
   for (const Place* from : {&found, &start}) {
     Place place = watchedFrom(i, *from, allowed, problem, iterations, stop);
