@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "core/muscle/muscle_path.h"
+#include "core/retarget/reversals.h"
 
 namespace sinew {
 namespace {
@@ -31,20 +33,13 @@ std::vector<int> reversedMotions(const RetargetReference& reference, const Motio
   const ReferenceCurves& curves = reference.routing().curves(unit);
   std::vector<int> reversed;
   for (std::size_t k = 0; k < curves.motions.size(); ++k) {
-    const double* before = &curves.lengths[k * kRoutingSamples];
-    const auto [low, high] = std::minmax_element(before, before + kRoutingSamples);
-    const double least_step = kReversalShare * (*high - *low);
-    double last_m = 0;
-    bool against = false;
-    for (int s = 0; s < kRoutingSamples; ++s) {
-      const double length_m = pathLength(musculature.units[unit], poses.at(curves.motions[k], s));
-      if (s > 0) {
-        const double step = before[s] - before[s - 1];
-        against |= std::abs(step) > least_step && step * (length_m - last_m) < 0;
-      }
-      last_m = length_m;
-    }
-    reversed.push_back(against && curves.significance[k] > 0);
+    const std::span before{&curves.lengths[k * kRoutingSamples], kRoutingSamples};
+    std::vector<double> lengths_m;
+    for (int s = 0; s < kRoutingSamples; ++s)
+      lengths_m.push_back(pathLength(musculature.units[unit], poses.at(curves.motions[k], s)));
+    StepCount steps;
+    countReversals(stepDirections(before), lengths_m, steps);
+    reversed.push_back(steps.reversed > 0 && curves.significance[k] > 0);
   }
   return reversed;
 }
