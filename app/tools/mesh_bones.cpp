@@ -10,17 +10,14 @@
 #include <vtkSmartPointer.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <mutex>
 #include <set>
-#include <thread>
 
 #include "core/error.h"
 #include "core/geometry/bone_shapes.h"
 #include "core/geometry/mesh_io.h"
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
@@ -148,24 +145,7 @@ int run(const std::filesystem::path& resource_dir, const std::filesystem::path& 
   auto shapes = loadBoneShapes(resource_dir);
   if (!only.empty()) std::erase_if(shapes, [&](const BoneShape& s) { return !only.contains(s.name); });
   std::vector<NamedMesh> meshes(shapes.size());
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < shapes.size(); i = next++) {
-      try {
-        meshes[i] = meshBone(shapes[i]);
-      } catch (...) {
-        const std::scoped_lock lock{mutex};
-        failure = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t) threads.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  forEachInParallel(shapes.size(), {}, "bones", [&](std::size_t i) { meshes[i] = meshBone(shapes[i]); });
   writeMeshes(meshes, output);
   std::size_t triangles = 0;
   for (const auto& mesh : meshes) triangles += mesh.mesh.triangles.size();
