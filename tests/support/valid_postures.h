@@ -10,17 +10,15 @@
 namespace sinew::test {
 
 /// Random postures of the average adult's pose set, kept if no unit is beyond its longest length.
-/// @param share_of_range by which all angles are brought towards standing: 1 reaches to the ends of the range.
 inline std::vector<Posture> validPostures(const Skeleton& skeleton, const Musculature& musculature, std::size_t count,
-                                          unsigned seed, double share_of_range = 1) {
+                                          unsigned seed) {
   const RomPreset preset = loadRomPreset(resourceDir(), kDefaultPreset, skeleton);
   const PoseSet set = sampledPoseSet(skeleton, preset, loadRomNorms(resourceDir(), skeleton).tests, {.count = 4000});
   std::mt19937_64 random{seed};
   std::uniform_int_distribution<std::size_t> any{0, set.size() - 1};
   std::vector<Posture> postures;
   for (int trial = 0; postures.size() < count && trial < 10'000; ++trial) {
-    const Eigen::VectorXd clinical = clinicalFromPosture(skeleton, set.posture(any(random)));
-    const Posture posture = postureFromClinical(skeleton, share_of_range * clinical);
+    const Posture posture = set.posture(any(random));
     if (evaluatePosture(skeleton, musculature, posture).valid) postures.push_back(posture);
   }
   return postures;
