@@ -5,6 +5,11 @@
 #include "core/muscle/muscle_path.h"
 
 namespace sinew {
+namespace {
+
+constexpr double kFirstPrice_1_m2 = 20;  // of moving points, per energy: a slide of 1 cm costs 0.2 % of it
+
+}  // namespace
 
 UnitRouting UnitRouter::operator()(std::size_t i, MusculotendonUnit& unit, const std::stop_token& stop) const {
   const double zero_length_m = pathLength(unit, poses_.atZero());
@@ -69,7 +74,6 @@ Minimum UnitRouter::bestOfStarts(const UnitProblem& problem, double slide_1_m2, 
 /// the surface somewhere, they are put onto it and the search goes on from there, and once more from the start.
 UnitRouter::Place UnitRouter::solved(std::size_t i, const Place& start, UnitProblem& problem, int& iterations,
                                      const std::stop_token& stop) const {
-  constexpr double kFirstPrice_1_m2 = 20;  // of the energy: a slide of 1 cm costs 0.2 % of it
   const bool slides = std::ranges::any_of(start.points, &UnitProblem::Point::slides);
   const auto price_1_m2 = [&](const Place& place) { return slides ? kFirstPrice_1_m2 * place.objective : 0; };
   Place place = start;
@@ -102,6 +106,7 @@ UnitRouter::Place UnitRouter::rounds(std::size_t i, const Place& start, Minimum 
   constexpr double kFarther = 0.2, kNearer = 8;               // factors on the price
   const bool slides = slide_1_m2 > 0;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.unknowns());
+  double via_1_m2 = 0;
   Place place = start;
   for (int round = 0; round < kMostRounds && !stop.stop_requested(); ++round) {
     iterations += step.iterations;
@@ -115,10 +120,13 @@ UnitRouter::Place UnitRouter::rounds(std::size_t i, const Place& start, Minimum 
     else
       problem.moveTo(place.anchors, place.points);
     if (!slides ? round > 0 : little) break;
-    if (fits && gained > kGood * hoped) slide_1_m2 *= kFarther;
-    if (!fits || gained < kPoor * hoped) slide_1_m2 *= kNearer;
-    step = leastSquares(problem, {.slide_1_m2 = slide_1_m2}, zero, kMostIterations,
-                        slides ? kTolerance : kLastTolerance, stop);
+    if (fits && gained > kGood * hoped) slide_1_m2 *= kFarther, via_1_m2 *= kFarther;
+    if (!fits || gained < kPoor * hoped) {
+      slide_1_m2 *= kNearer;
+      if (!fits || gained <= 0) via_1_m2 = std::max(kNearer * via_1_m2, kFirstPrice_1_m2 * place.objective);
+    }
+    step = leastSquares(problem, {slide_1_m2, via_1_m2}, zero, kMostIterations, slides ? kTolerance : kLastTolerance,
+                        stop);
     if (step.energy >= place.objective) break;
   }
   return place;
