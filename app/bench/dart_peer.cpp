@@ -142,13 +142,21 @@ Eigen::VectorXd DartPeer::positions(const Posture& q) const {
   return x;
 }
 
-void DartPeer::moveTo(const Eigen::VectorXd& positions) {
+void DartPeer::setPositions(const Eigen::VectorXd& positions) {
   impl_->dart->setPositions(positions);
-  for (const auto* body : impl_->bodies) body->getWorldTransform();  // computed when asked for
+}
+
+Eigen::Vector3d DartPeer::inWorld(int segment, const Eigen::Vector3d& p_B) const {
+  return impl_->bodies[segment]->getWorldTransform() * p_B;
 }
 
 RigidTransform DartPeer::X_WB(int segment) const {
   return RigidTransform{impl_->bodies[segment]->getWorldTransform().matrix()};
+}
+
+void DartPeer::moveTo(const Eigen::VectorXd& positions) {
+  setPositions(positions);
+  for (const auto* body : impl_->bodies) body->getWorldTransform();
 }
 
 void DartPeer::lengths(std::span<const int> units, std::vector<double>& lengths_m) const {

@@ -20,9 +20,12 @@ class DartPeer {
 
   /// Positions of all 54 degrees of freedom at a posture; not what is to be timed.
   Eigen::VectorXd positions(const Posture& posture) const;
-  /// Poses of all bodies.
-  void moveTo(const Eigen::VectorXd& positions);
+  /// DART computes the pose of a body when it is first asked for, ...
+  void setPositions(const Eigen::VectorXd& positions);
+  Eigen::Vector3d inWorld(int segment, const Eigen::Vector3d& p_B) const;
   RigidTransform X_WB(int segment) const;
+  /// ... here of all bodies.
+  void moveTo(const Eigen::VectorXd& positions);
   /// Lengths of some units where the bodies are now.
   void lengths(std::span<const int> units, std::vector<double>& lengths_m) const;
 

@@ -32,14 +32,14 @@ std::vector<double> DartRouting::energies(std::size_t unit, const std::vector<Po
     const auto motion = std::size_t(wanted.motions[m]);
     const double weight = reference_.routing().motions()[motion].weight;
     for (std::size_t s = 0; s < kRoutingSamples; ++s) {
-      dart_->moveTo(positions_[motion][s]);
+      dart_->setPositions(positions_[motion][s]);
       const double share = (s == 0 || s + 1 == kRoutingSamples ? 0.5 : 1.0) / (kRoutingSamples - 1);  // trapezia
       for (std::size_t d = 0; d < displaced.size(); ++d) {
         for (std::size_t p = 0; p < p_W.size(); ++p) {
           p_W[p].setZero();
           for (const Anchor& a : path.path[p].anchors) {
             const Eigen::Vector3d moved_B = zero_[std::size_t(a.segment)].linear().transpose() * displaced[d][p];
-            p_W[p] += a.weight * (dart_->X_WB(a.segment) * (a.p_B + moved_B));
+            p_W[p] += a.weight * dart_->inWorld(a.segment, a.p_B + moved_B);
           }
         }
         double length_m = 0;
@@ -65,43 +65,48 @@ std::vector<double> DartRouting::energies(std::size_t unit, const std::vector<Po
   return sums;
 }
 
-std::vector<double> DartRouting::gradient(std::size_t unit, const Points& x, double energy) {
+std::vector<double> DartRouting::gradient(std::size_t unit, const Points& x, double energy_here,
+                                          Differences differences) {
   constexpr double kStep_m = 1e-5;
   std::vector<Points> displaced;
   for (std::size_t p = 0; p < x.size(); ++p)
     for (int k = 0; k < 3; ++k) displaced.emplace_back(x)[p][k] += kStep_m;
-  std::vector<double> slopes = energies(unit, displaced);
-  for (double& slope : slopes) slope = (slope - energy) / kStep_m;
+  std::vector<double> slopes;
+  if (differences == Differences::OnePass)
+    slopes = energies(unit, displaced);
+  else
+    for (const Points& points : displaced) slopes.push_back(energy(unit, points));
+  for (double& slope : slopes) slope = (slope - energy_here) / kStep_m;
   return slopes;
 }
 
 double DartRouting::startEnergy(std::size_t unit) {
-  return energies(unit, {Points(naive_.musculature.units[unit].path.size(), Eigen::Vector3d::Zero())}).front();
+  return energy(unit, Points(naive_.musculature.units[unit].path.size(), Eigen::Vector3d::Zero()));
 }
 
-double DartRouting::descend(std::size_t unit) {
+double DartRouting::descend(std::size_t unit, Differences differences) {
   // As core/retarget/minimize.cpp, descent().
   constexpr int kMostIterations = 200, kMostTrials = 14;
   constexpr double kGrowth = 1.7, kShrink = 0.4, kSufficient = 1e-4, kFlat = 1e-7, kTolerance = 1e-6;
   Points x(naive_.musculature.units[unit].path.size(), Eigen::Vector3d::Zero());
-  double energy = startEnergy(unit), step_m = 1e-3;
+  double reached = startEnergy(unit), step_m = 1e-3;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    const std::vector<double> slopes = gradient(unit, x, energy);
+    const std::vector<double> slopes = gradient(unit, x, reached, differences);
     const double slope = Eigen::Map<const Eigen::VectorXd>(slopes.data(), Eigen::Index(slopes.size())).norm();
     if (slope < kFlat) break;
-    const double before = energy;
+    const double before = reached;
     bool better = false;
     for (int trial = 0; trial < kMostTrials && !better; ++trial) {
       Points moved = x;
       for (std::size_t i = 0; i < slopes.size(); ++i) moved[i / 3][Eigen::Index(i % 3)] -= slopes[i] * step_m / slope;
-      const double found = energies(unit, {moved}).front();
-      better = found < energy - kSufficient * step_m * slope;
-      if (better) x = moved, energy = found;
+      const double found = energy(unit, moved);
+      better = found < reached - kSufficient * step_m * slope;
+      if (better) x = moved, reached = found;
       step_m *= better ? kGrowth : kShrink;
     }
-    if (!better || before - energy < kTolerance * before) break;
+    if (!better || before - reached < kTolerance * before) break;
   }
-  return energy;
+  return reached;
 }
 
 }  // namespace sinew

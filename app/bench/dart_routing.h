@@ -8,24 +8,29 @@
 namespace sinew {
 
 /// Routing as it is programmed on top of a physics engine: the paper's energy (E_direction + w_l E_length) of one
-/// unit, minimised by gradient descent with finite differences and a growing line search. Kinematics by DART; the
-/// postures of all motions are gone through once for all differences of a gradient. Unknowns and stopping rule are
-/// those of the method `paper`; prices of displacements are left out.
+/// unit, minimised by gradient descent with finite differences and a growing line search. Kinematics by DART, which
+/// computes the poses of those bodies only that are asked for. Unknowns and stopping rule are those of the method
+/// `paper`; prices of displacements are left out.
 class DartRouting {
  public:
+  /// How the energies are had that the differences of a gradient are of: by as many evaluations, each setting every
+  /// posture of every motion, as the paper's text reads; or of all in one pass over the postures.
+  enum class Differences { OneByOne, OnePass };
+
   /// `naive`: the new body, points anchored naively.
   DartRouting(const RetargetReference& reference, const Model& naive);
   bool isThere() const { return dart_ != nullptr; }
   /// The paper's energy of one unit where it starts.
   double startEnergy(std::size_t unit);
   /// Optimises one unit. @returns the energy reached.
-  double descend(std::size_t unit);
+  double descend(std::size_t unit, Differences differences);
 
  private:
   using Points = std::vector<Eigen::Vector3d>;  ///< displacements of the path points, W at the zero posture
-  /// Energies for several displacements.
+  /// Energies for several displacements, in one pass over the postures.
   std::vector<double> energies(std::size_t unit, const std::vector<Points>& displaced);
-  std::vector<double> gradient(std::size_t unit, const Points& x, double energy);
+  double energy(std::size_t unit, const Points& displaced) { return energies(unit, {displaced}).front(); }
+  std::vector<double> gradient(std::size_t unit, const Points& x, double energy, Differences differences);
 
   const RetargetReference& reference_;
   const Model& naive_;

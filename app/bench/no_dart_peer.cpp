@@ -15,7 +15,11 @@ DartPeer::~DartPeer() = default;
 Eigen::VectorXd DartPeer::positions(const Posture&) const {
   return {};
 }
+void DartPeer::setPositions(const Eigen::VectorXd&) {}
 void DartPeer::moveTo(const Eigen::VectorXd&) {}
+Eigen::Vector3d DartPeer::inWorld(int, const Eigen::Vector3d& p_B) const {
+  return p_B;
+}
 RigidTransform DartPeer::X_WB(int) const {
   return RigidTransform::Identity();
 }

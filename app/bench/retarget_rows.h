@@ -17,6 +17,8 @@ class RetargetRows {
 
  private:
   void addRouting();
+  void addRoutingOnDart(const std::shared_ptr<const Model>& naive, const Workload& ours,
+                        const std::vector<UnitRouting>& solved);
   void addPeakTorque();
   void addWholeBody();
 

@@ -272,6 +272,11 @@ MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 
+Vector3d MeshDistance::Nearest::outward(const Vector3d& p) const {
+  constexpr double kTouching_m = 1e-9;
+  return std::abs(distance_m) < kTouching_m ? normal : Vector3d{(p - point) / distance_m};
+}
+
 MeshDistance::Nearest MeshDistance::nearest(const Vector3d& p) const {
   Nearest best;
   for (const Piece& piece : pieces_) {

@@ -16,6 +16,9 @@ class MeshDistance {
     double distance_m = std::numeric_limits<double>::infinity();  ///< negative inside
     Eigen::Vector3d point = Eigen::Vector3d::Zero();              ///< of the surface
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();             ///< outwards there, unit
+    /// In which direction the distance of `p`, that this is the nearest of, grows: on from the surface, on it the
+    /// normal. Beside an edge or a corner the normal is a mean of the faces' and points elsewhere.
+    Eigen::Vector3d outward(const Eigen::Vector3d& p) const;
   };
 
   /// @param mesh closed and facing outwards (isWatertight()); a bug of the caller otherwise if it has no triangle.

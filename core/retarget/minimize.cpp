@@ -29,7 +29,7 @@ Minimum leastSquares(const UnitProblem& problem, Objective objective, const Eige
       if (0.5 * e.gradient.dot(step) < tolerance * before) break;  // all that can be hoped for
       x = best.x - step;
       const double energy = problem.energy(x, objective);
-      better = energy < best.energy;
+      better = energy < best.energy && !problem.turnsAround(best.x, x);
       if (better) {
         best.x.swap(x);
         best.energy = energy;

@@ -92,11 +92,13 @@ PointGuide guideOf(const PathPoint& point, const BoneDistances& bones, const std
   const auto heaviest = std::ranges::max_element(point.anchors, {}, &Anchor::weight);
   guide.heaviest_anchor = static_cast<int>(heaviest - point.anchors.begin());
   BoneDistances::Surface nearest;
+  Eigen::Vector3d outward_B = Eigen::Vector3d::Zero();
   for (const Anchor& anchor : point.anchors) {
     const auto surface = bones.nearest(anchor.segment, anchor.p_B);
     if (surface.nearest.distance_m < nearest.nearest.distance_m) {
       nearest = surface;
       guide.surface_segment = anchor.segment;
+      outward_B = surface.nearest.outward(anchor.p_B);
     }
   }
   if (guide.surface_segment >= 0) {
@@ -109,7 +111,7 @@ PointGuide guideOf(const PathPoint& point, const BoneDistances& bones, const std
   }
   if (guide.attachment) {
     const bool slides = point.anchors.size() == 1 && guide.surface_segment >= 0;
-    guide.basis_B = slides ? tangentBasis(nearest.nearest.normal) : Eigen::Matrix3d::Zero();
+    guide.basis_B = slides ? tangentBasis(outward_B) : Eigen::Matrix3d::Zero();
   }
   std::vector<bool> segments(X_WB.size(), false);
   if (guide.surface_segment >= 0) segments[static_cast<std::size_t>(guide.surface_segment)] = true;

@@ -172,12 +172,12 @@ void UnitProblem::addResiduals(Expansion& e) const {
 
 /// Displacements, and moves into the bone that a point glides on; `slide`: what sliding costs besides.
 template <UnitProblem::Order kOrder>
-double UnitProblem::addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expansion& e, double& slide) const {
+double UnitProblem::addPrices(const Eigen::VectorXd& x, Objective objective, Expansion& e, double& slide) const {
   double energy = 0;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto at = static_cast<Eigen::Index>(3 * p);
     const double price = points_[p].price_1_m2, inside = weights_.inside_1_m2;
-    const double slide_price = points_[p].slides ? slide_1_m2 : 0;
+    const double slide_price = points_[p].slides ? objective.slide_1_m2 : objective.via_1_m2;
     const Eigen::Matrix3d& basis = points_[p].basis_B;
     const Eigen::Vector3d step = x.segment<3>(at), moved = points_[p].moved_B + basis * step;
     const double far = moved.squaredNorm() / (weights_.far_m * weights_.far_m), far2 = far * far;
@@ -204,15 +204,14 @@ double UnitProblem::addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expan
 /// A piece that shrinks to nothing has any direction it likes: neighbouring points keep their distance.
 template <UnitProblem::Order kOrder>
 double UnitProblem::addCrowding(const Eigen::VectorXd& x, Expansion& e) const {
-  constexpr double kLeast = 0.25;     // of a piece's length
-  constexpr double kLeast_m = 0.001;  // what was shorter is no piece
+  constexpr double kLeast = 0.25;  // of a piece's length
   double energy = 0;
   for (std::size_t p = 0; p + 1 < points_.size(); ++p) {
     const auto a = static_cast<Eigen::Index>(3 * p), b = a + 3;
     const Eigen::Vector3d piece =
         (zero_[p + 1].c + zero_[p + 1].D * x.segment<3>(b)) - (zero_[p].c + zero_[p].D * x.segment<3>(a));
     const double length_m = std::max(piece.norm(), 1e-9), lacking = length_m / lengths_m_[p] - kLeast;
-    if (lengths_m_[p] < kLeast_m || lacking >= 0) continue;
+    if (lengths_m_[p] < kLeastPiece_m || lacking >= 0) continue;
     energy += weights_.crowding * lacking * lacking;
     if constexpr (kOrder != Order::Value) {
       const Eigen::Vector3d direction = piece / (length_m * lengths_m_[p]);
@@ -259,7 +258,7 @@ double UnitProblem::evaluate(const Eigen::VectorXd& x, Objective objective, Rout
   }
   addResiduals<kOrder>(e);
   double slide = 0;
-  parts.displacement = addPrices<kOrder>(x, objective.slide_1_m2, e, slide) + addCrowding<kOrder>(x, e);
+  parts.displacement = addPrices<kOrder>(x, objective, e, slide) + addCrowding<kOrder>(x, e);
   return e.energy = parts.total(weights_) + slide + addWatched(x, kOrder, e);
 }
 

@@ -29,16 +29,17 @@ StepCount UnitRouter::reversals(std::size_t i, const Place& place,
 }
 
 /// Minimised from a place with a price on the steps that are found reversed, higher and higher until there are no
-/// more than allowed. `fits` tells whether that was reached.
-UnitRouter::Place UnitRouter::watchedFrom(std::size_t i, const Place& from, int allowed, UnitProblem& problem,
+/// more than allowed. `watched`: steps known to be in danger, to which those are added. `fits` tells whether that was
+/// reached.
+UnitRouter::Place UnitRouter::watchedFrom(std::size_t i, const Place& from, int allowed, double first_weight,
+                                          std::vector<UnitProblem::WatchedStep>& watched, UnitProblem& problem,
                                           int& iterations, const std::stop_token& stop) const {
   constexpr int kMostPrices = 5;
-  constexpr double kLeastStep = 0.02;  // of the reference's
-  constexpr double kFirstWeight = 10, kDearer = 20;
+  constexpr double kLeastStep = 0.005;  // of the reference's
+  constexpr double kDearer = 20;
   const ReferenceCurves& curves = prepared_.curves(i);
-  std::vector<UnitProblem::WatchedStep> watched;
   Place place = from;
-  double weight = kFirstWeight;
+  double weight = first_weight;
   for (int price = 0; price < kMostPrices && !stop.stop_requested(); ++price, weight *= kDearer) {
     std::vector<UnitProblem::WatchedStep> reversed;
     const bool ordered = reversals(i, place, &reversed).reversed <= allowed;
@@ -76,27 +77,31 @@ UnitRouter::Place UnitRouter::between(std::size_t i, const Place& from, const Pl
 }
 
 /// `found` if no more of its steps are reversed than of `start`'s. Else the lowest in energy of what keeps to that:
-/// minimised anew from either place with a price on the steps that are reversed, or as far on the line between them
-/// as can be. Fewer are taken if they cost little.
+/// minimised anew from either place with a price on the steps that are reversed, or from as far on the line between
+/// them as can be: it may be all of another basin. Fewer are taken if they cost little.
 UnitRouter::Place UnitRouter::inOrder(std::size_t i, const Place& start, const Place& found, UnitProblem& problem,
                                       int& iterations, const std::stop_token& stop) const {
   constexpr double kLittle = 1.01;
+  constexpr double kFirstWeight = 10, kFirstWeightInOrder = 200;  // of a step that lacks all of its length
   const int now = reversals(i, found, nullptr).reversed;
   if (now == 0) return found;
   const int before = reversals(i, start, nullptr).reversed, allowed = std::min(now - 1, before);
   const bool must = now > before;
   Place best = must ? start : found;
+  std::vector<UnitProblem::WatchedStep> watched;
   for (const Place* from : {&found, &start}) {
-    Place place = watchedFrom(i, *from, allowed, problem, iterations, stop);
+    Place place = watchedFrom(i, *from, allowed, kFirstWeight, watched, problem, iterations, stop);
     const double most = must ? best.objective : kLittle * found.objective;
     if (place.fits && place.objective < most) best = std::move(place);
-    if (best.objective < kLittle * found.objective) break;
+    if (best.objective < kLittle * found.objective) return best;
   }
   constexpr int kParts = 10;  // of the line
   for (int part = kParts - 1; must && part > 0; --part) {
     Place place = between(i, start, found, double(part) / kParts, problem);
     if (!place.fits || reversals(i, place, nullptr).reversed > allowed) continue;
-    if (place.objective < best.objective) best = std::move(place);
+    Place next = watchedFrom(i, place, allowed, kFirstWeightInOrder, watched, problem, iterations, stop);
+    for (Place* candidate : {&place, &next})
+      if (candidate->fits && candidate->objective < best.objective) best = std::move(*candidate);
     break;
   }
   return best;

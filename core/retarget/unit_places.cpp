@@ -71,7 +71,7 @@ void UnitRouter::setGuard(int bone, double kept_m, const std::vector<Anchor>& an
                           UnitProblem::Point& point) const {
   const RigidTransform& X_WB = poses_.atZero()[static_cast<std::size_t>(bones_.segment(bone))];
   const auto surface = bones_[bone].nearest(X_WB.inverse() * atRest(anchors));
-  point.outward_W = X_WB.linear() * surface.normal;
+  point.outward_W = X_WB.linear() * surface.outward(X_WB.inverse() * atRest(anchors));
   // What lay inside in the reference may stay as deep as it is.
   point.slack_m = kept_m > 0 ? surface.distance_m - std::min(kept_m, kLeastClearance_m) : 0;
 }
@@ -149,7 +149,7 @@ bool UnitRouter::putOntoBone(const PointGuide& guide, UnitProblem::Point& point,
     }
     on = std::abs(surface.distance_m) <= allowed_m;
     if (on) break;
-    const Eigen::Vector3d onto_B = surface.point + kept_m * surface.normal;
+    const Eigen::Vector3d onto_B = surface.point + kept_m * surface.outward(anchor.p_B);
     free_m -= (onto_B - anchor.p_B).norm();
     anchor.p_B = onto_B;
   }
@@ -231,12 +231,12 @@ UnitRouter::Place UnitRouter::moved(std::size_t i, const Place& from, const Eige
 void UnitRouter::slide(std::size_t unit, std::size_t p, UnitProblem::Point& point, Anchor& anchor) const {
   const PointGuide& guide = prepared_.guides(unit)[p];
   const Eigen::Vector3d before_B = reference_.musculature.units[unit].path[p].anchors.front().p_B;
-  const auto surface =
-      prepared_.bones().bones()[static_cast<std::size_t>(guide.bone)].distance.nearest(before_B + point.moved_B);
-  const Eigen::Vector3d p_B = surface.point + guide.clearance_m * surface.normal;
+  const Eigen::Vector3d flat_B = before_B + point.moved_B;
+  const auto surface = prepared_.bones().bones()[static_cast<std::size_t>(guide.bone)].distance.nearest(flat_B);
+  const Eigen::Vector3d outward_B = surface.outward(flat_B), p_B = surface.point + guide.clearance_m * outward_B;
   point.moved_B = p_B - before_B;
   anchor.p_B = deform(reference_.skeleton, shape_, anchor.segment, p_B);
-  setBasis(anchor, p_B, tangentBasis(surface.normal), point);
+  setBasis(anchor, p_B, tangentBasis(outward_B), point);
 }
 
 /// `problem` stands where the points are.

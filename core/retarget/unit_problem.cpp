@@ -118,6 +118,16 @@ void UnitProblem::sortPieces(const std::vector<std::vector<Anchor>>& anchors, co
   }
 }
 
+bool UnitProblem::turnsAround(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  const auto at = [&](std::size_t p, const Eigen::VectorXd& x) -> Eigen::Vector3d {
+    return zero_[p].c + zero_[p].D * x.segment<3>(static_cast<Eigen::Index>(3 * p));
+  };
+  for (std::size_t p = 0; p + 1 < points_.size(); ++p)
+    if (lengths_m_[p] >= kLeastPiece_m && (at(p + 1, from) - at(p, from)).dot(at(p + 1, to) - at(p, to)) < 0)
+      return true;
+  return false;
+}
+
 bool UnitProblem::isFree() const {
   if (reference_->motions.empty()) return false;
   return std::ranges::any_of(points_, [](const Point& point) { return !point.basis_W.isZero(0); });

@@ -12,6 +12,8 @@ namespace sinew {
 struct Objective {
   /// a price of moving attachments away from where they are: the surface of their bone is flat only near them.
   double slide_1_m2 = 0;
+  /// The same for via points, once they have come into a bone.
+  double via_1_m2 = 0;
 };
 
 /// The routing energy of one unit in one new body as a function of the displacements of its points: three unknowns a
@@ -52,6 +54,9 @@ class UnitProblem {
 
   int unknowns() const { return 3 * static_cast<int>(points_.size()); }
   bool isFree() const;  ///< any point may move, and there is something to compare
+  /// Whether a piece of the path points the other way at `to` than at `from`, at the zero posture: its ends have
+  /// changed places, which the cross product of directions does not notice.
+  bool turnsAround(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
   RoutingEnergy parts(const Eigen::VectorXd& x) const;
   double energy(const Eigen::VectorXd& x, Objective objective = {}) const;
@@ -108,11 +113,13 @@ class UnitProblem {
   template <Order kOrder>
   void addResiduals(Expansion& e) const;
   template <Order kOrder>
-  double addPrices(const Eigen::VectorXd& x, double slide_1_m2, Expansion& e, double& slide) const;
+  double addPrices(const Eigen::VectorXd& x, Objective objective, Expansion& e, double& slide) const;
   template <Order kOrder>
   double addCrowding(const Eigen::VectorXd& x, Expansion& e) const;
   double addWatched(const Eigen::VectorXd& x, Order order, Expansion& e) const;
   double watchedLength(const Eigen::VectorXd& x, const Place* places, double sign, Eigen::VectorXd* slope) const;
+
+  static constexpr double kLeastPiece_m = 0.001;  ///< what is shorter is no piece of the path
 
   const ReferenceCurves* reference_;
   const MotionPoses* poses_;

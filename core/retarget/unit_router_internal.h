@@ -62,6 +62,8 @@ class UnitRouter {
   // unit_router.cpp: the search.
   Place rounds(std::size_t i, const Place& start, Minimum step, double slide_1_m2, UnitProblem& problem,
                int& iterations, const std::stop_token& stop) const;
+  Place onwards(std::size_t i, const Place& from, Objective objective, UnitProblem& problem, int& iterations,
+                const std::stop_token& stop) const;
   Place descended(std::size_t i, const Place& start, UnitProblem& problem, int& iterations,
                   const std::stop_token& stop) const;
   Place solved(std::size_t i, const Place& start, UnitProblem& problem, int& iterations,
@@ -74,7 +76,8 @@ class UnitRouter {
   Place inOrder(std::size_t i, const Place& naive, const Place& found, UnitProblem& problem, int& iterations,
                 const std::stop_token& stop) const;
   Place between(std::size_t i, const Place& from, const Place& to, double share, UnitProblem& problem) const;
-  Place watchedFrom(std::size_t i, const Place& from, int allowed, UnitProblem& problem, int& iterations,
+  Place watchedFrom(std::size_t i, const Place& from, int allowed, double first_weight,
+                    std::vector<UnitProblem::WatchedStep>& watched, UnitProblem& problem, int& iterations,
                     const std::stop_token& stop) const;
 
   const Model& reference_;

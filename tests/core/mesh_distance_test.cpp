@@ -49,6 +49,14 @@ TEST(MeshDistance, IsTheDistanceToACubeAnywhere) {
   }
 }
 
+TEST(MeshDistance, OutwardsIsWhereTheDistanceGrows) {
+  const MeshDistance distance{cube({0, 0, 0}, 1)};
+  const Vector3d beside_corner{1.1, 1.2, 1.3}, inside{0.5, 0.5, 0.9}, on_face{0.25, 0.5, 1};
+  EXPECT_LT((distance.nearest(beside_corner).outward(beside_corner) - Vector3d{1, 2, 3}.normalized()).norm(), 1e-12);
+  EXPECT_LT((distance.nearest(inside).outward(inside) - Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((distance.nearest(on_face).outward(on_face) - Vector3d::UnitZ()).norm(), 1e-12);
+}
+
 TEST(MeshDistance, NormalPointsOutwardsOnFacesEdgesAndCorners) {
   const MeshDistance distance{cube({0, 0, 0}, 1)};
   EXPECT_NEAR((distance.nearest({0.3, 0.4, 1.5}).normal - Vector3d::UnitZ()).norm(), 0, 1e-12);
