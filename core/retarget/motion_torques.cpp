@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 #include "core/parallel.h"
 #include "core/retarget/motion_torques_internal.h"
@@ -7,7 +9,13 @@ namespace sinew {
 
 MotionTorques::MotionTorques(const TorqueGeometry& geometry, const Musculature& musculature)
     : geometry_{geometry}, parts_{partsByUnit(geometry, musculature.units.size())} {
-  for (const MusculotendonUnit& unit : musculature.units) forces_.emplace_back(unit);
+  std::vector<std::shared_ptr<const FiberTable>> tables;
+  for (const MusculotendonUnit& unit : musculature.units) {
+    const double cosine = std::cos(unit.pennation_angle_at_optimal_rad);
+    auto known = std::ranges::find_if(tables, [&](const auto& t) { return t->isOf(unit.curves, cosine); });
+    if (known == tables.end()) known = tables.insert(known, std::make_shared<const FiberTable>(unit.curves, cosine));
+    forces_.emplace_back(unit, *known);
+  }
 }
 
 MotionTorques::State MotionTorques::original() {
