@@ -21,12 +21,12 @@ class RatioForce {
   RatioForce(const MusculotendonUnit& unit, std::shared_ptr<const FiberTable> table);
   explicit RatioForce(const MusculotendonUnit& unit);
   void setFactor(double factor);
-  /// Force [N] along the tendon and its slope with the factor. `normalized_fiber_length`: in, where to start (0:
-  /// nothing known); out, where it is.
-  CurveValue at(double length_m, double& normalized_fiber_length) const;
+  /// Force [N] along the tendon and its slope with the factor. `fiber`: normalised length; in, where to start (0:
+  /// nothing known); out, where it is, and its slope with the factor.
+  CurveValue at(double length_m, CurveValue& fiber) const;
 
  private:
-  CurveValue beyondTable(double length_m, double& normalized_fiber_length) const;
+  CurveValue beyondTable(double length_m, CurveValue& fiber) const;
 
   MusculotendonUnit original_;  ///< without its path
   HillCurves curves_;
