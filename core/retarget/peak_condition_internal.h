@@ -12,7 +12,7 @@ struct TorqueCondition {
   std::array<double, 3> weight{};
 
   bool isSlope() const { return weight[2] != 0; }  ///< else a difference of the first two samples
-  double of(const MotionTorques::Samples& torque_Nm) const {
+  double of(const Eigen::Ref<const Eigen::VectorXd>& torque_Nm) const {
     return weight[0] * torque_Nm[sample[0]] + weight[1] * torque_Nm[sample[1]] + weight[2] * torque_Nm[sample[2]];
   }
 };

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "core/retarget/length_curve.h"
 #include "core/retarget/peak_target_internal.h"
@@ -25,39 +25,51 @@ double energyOf(const TorqueResiduals& residuals) {
 }
 
 PeakTarget::PeakTarget(std::size_t motion, const JointMotion& what, double wanted_theta,
-                       const MotionTorques::Samples& first_Nm)
+                       const Eigen::Ref<const MotionTorques::Samples>& first_Nm)
     : motion_{motion},
       wanted_theta_{wanted_theta},
       span_deg_{std::abs(what.end_deg - what.start_deg)},
       scale_Nm_{first_Nm.maxCoeff()} {}
 
-double PeakTarget::off(const MotionTorques::Samples& torque_Nm) const {
+double PeakTarget::off(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const {
   const double theta = peakTheta(torque_Nm);
   return std::isnan(theta) ? 1 : theta - wanted_theta_;
 }
 
 void PeakTarget::setTolerance(double tolerance_deg) {
   const double wanted = wanted_theta_ * kSteps, tolerance = tolerance_deg * kSteps / span_deg_;
-  alternatives_ = peakAlternatives(wanted - tolerance, wanted + tolerance);
-}
-
-TorqueResiduals PeakTarget::violations(const MotionTorques::Samples& torque_Nm) const {
-  TorqueResiduals best, found;
-  for (const auto& alternative : alternatives_) {
-    found.clear();
-    for (const TorqueCondition& c : alternative) {
-      const double by = margin(c) - c.of(torque_Nm) / scale_Nm_;
-      if (!(by > 0)) continue;
-      found.push_back({by, c.sample, {}});
-      for (std::size_t i = 0; i < 3; ++i) found.back().slope_1_Nm[i] = -c.weight[i] / scale_Nm_;
-    }
-    if (found.empty()) return {};
-    if (best.empty() || energyOf(found) < energyOf(best)) std::swap(best, found);
+  alternatives_.clear();
+  for (const auto& conditions : peakAlternatives(wanted - tolerance, wanted + tolerance)) {
+    auto& alternative = alternatives_.emplace_back();
+    for (const TorqueCondition& c : conditions) alternative.push_back({c, margin(c)});
   }
-  return best;
 }
 
-TorqueResiduals PeakTarget::deviation(const MotionTorques::Samples& torque_Nm) const {
+TorqueResiduals PeakTarget::violations(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const {
+  const double scale_1_Nm = 1 / scale_Nm_;
+  const auto lack = [&](const Wanted& w) { return std::max(0.0, w.by - scale_1_Nm * w.condition.of(torque_Nm)); };
+  const std::vector<Wanted>* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& alternative : alternatives_) {
+    double sum = 0;
+    for (auto w = alternative.begin(); w != alternative.end() && sum < least; ++w) sum += lack(*w) * lack(*w);
+    if (!(sum < least)) continue;
+    least = sum;
+    best = &alternative;
+    if (least == 0) return {};
+  }
+  TorqueResiduals found;
+  if (!best) return found;
+  for (const Wanted& w : *best) {
+    const double by = lack(w);
+    if (!(by > 0)) continue;
+    found.push_back({by, w.condition.sample, {}});
+    for (std::size_t i = 0; i < 3; ++i) found.back().slope_1_Nm[i] = -scale_1_Nm * w.condition.weight[i];
+  }
+  return found;
+}
+
+TorqueResiduals PeakTarget::deviation(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const {
   const CurveExtremum peak = curveFeatures({torque_Nm.data(), TorqueGeometry::kSamples}).longest;
   return {{peak.theta - wanted_theta_,
            {peak.first_sample, peak.first_sample + 1, peak.first_sample + 2},

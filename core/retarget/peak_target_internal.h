@@ -22,27 +22,35 @@ class PeakTarget {
  public:
   /// `first_Nm`: torques before anything is changed.
   PeakTarget(std::size_t motion, const JointMotion& what, double wanted_theta,
-             const MotionTorques::Samples& first_Nm);
+             const Eigen::Ref<const MotionTorques::Samples>& first_Nm);
 
   std::size_t motion() const { return motion_; }
   double wantedTheta() const { return wanted_theta_; }
   /// theta - wanted; 1 for a motion that nothing drives any more.
-  double off(const MotionTorques::Samples& torque_Nm) const;
-  double off_deg(const MotionTorques::Samples& torque_Nm) const { return std::abs(off(torque_Nm)) * span_deg_; }
-  bool isWithin(const MotionTorques::Samples& torque_Nm) const { return off_deg(torque_Nm) <= kPeakTorqueTarget_deg; }
+  double off(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const;
+  double off_deg(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const {
+    return std::abs(off(torque_Nm)) * span_deg_;
+  }
+  bool isWithin(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const {
+    return off_deg(torque_Nm) <= kPeakTorqueTarget_deg;
+  }
 
   /// How near the peak has to be for its conditions to hold.
   void setTolerance(double tolerance_deg);
   /// What of the conditions does not hold, in shares of the greatest torque at first; of the alternatives the one
   /// that is least off.
-  TorqueResiduals violations(const MotionTorques::Samples& torque_Nm) const;
+  TorqueResiduals violations(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const;
   /// off(), as long as the peak stays beside its sample.
-  TorqueResiduals deviation(const MotionTorques::Samples& torque_Nm) const;
+  TorqueResiduals deviation(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm) const;
 
  private:
   std::size_t motion_;
   double wanted_theta_, span_deg_, scale_Nm_;
-  std::vector<std::vector<TorqueCondition>> alternatives_;
+  struct Wanted {
+    TorqueCondition condition;
+    double by;  ///< how much it has to hold, in shares of the greatest torque at first
+  };
+  std::vector<std::vector<Wanted>> alternatives_;
 };
 
 }  // namespace sinew

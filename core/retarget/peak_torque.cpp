@@ -6,8 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/retarget/bounded_step_internal.h"
-#include "core/retarget/peak_expansion_internal.h"
+#include "core/retarget/peak_minimize_internal.h"
 #include "core/retarget/peak_reach.h"
 #include "core/retarget/peak_result_internal.h"
 #include "core/retarget/peak_target_internal.h"
@@ -26,7 +25,7 @@ class PeakSearch {
         options_{options},
         state_{torques.original()} {
     for (std::size_t m = 0; m < motions.size(); ++m) {
-      const MotionTorques::Samples& torque_Nm = state_.torque_Nm[m];
+      const MotionTorques::Samples torque_Nm = state_.torque_Nm.col(Eigen::Index(m));
       if (std::isnan(wanted_theta[m]) || !(torque_Nm.maxCoeff() > 0)) continue;
       Pursued& p = pursued_.emplace_back(Pursued{{m, motions[m], wanted_theta[m], torque_Nm}});
       p.was_within = p.target.isWithin(torque_Nm);
@@ -39,7 +38,7 @@ class PeakSearch {
   const Eigen::VectorXd& bestRatios() const { return best_.ratio; }
   std::vector<double> bestThetas() const {
     std::vector<double> thetas;
-    for (const MotionTorques::Samples& torque_Nm : best_.torque_Nm) thetas.push_back(peakTheta(torque_Nm));
+    for (const auto torque_Nm : best_.torque_Nm.colwise()) thetas.push_back(peakTheta(torque_Nm));
     return thetas;
   }
   int iterations() const { return iterations_; }
@@ -47,9 +46,8 @@ class PeakSearch {
   /// A body whose angles are right already - the reference itself - needs nothing.
   bool isRight() const {
     constexpr double kRight_deg = 0.01;
-    return std::ranges::all_of(pursued_, [&](const Pursued& p) {
-      return p.target.off_deg(state_.torque_Nm[p.target.motion()]) <= kRight_deg;
-    });
+    return std::ranges::all_of(
+        pursued_, [&](const Pursued& p) { return p.target.off_deg(of(p, state_.torque_Nm)) <= kRight_deg; });
   }
 
   /// As many motions as possible within the target. After each round, those that are still missed count for more:
@@ -67,10 +65,20 @@ class PeakSearch {
     }
   }
 
+  /// One motion after the other that is still missed though it could be reached, beside all that are within.
+  void bringOneByOne(const Job& job) {
+    for (bool gained = true; gained && goesOn(job);) {
+      gained = false;
+      for (const Pursued& wanted : pursued_)
+        if (!wanted.is_out_of_reach && !wanted.target.isWithin(of(wanted, best_.torque_Nm)))
+          gained = bringAsWell(wanted, job) || gained;
+    }
+  }
+
   /// All angles as near as possible, from the best ratios so far; the number of motions within the target stays.
   void bringNear(const Job& job) {
     constexpr int kMost = 12;
-    constexpr double kHold = 10;  // of the conditions of a motion that is within, beside angles
+    constexpr double kHold = 1000;  // of the conditions of a motion that is within, beside angles
     state_ = best_;
     for (Pursued& p : pursued_) {
       p.target.setTolerance(kLastTolerance_deg);
@@ -99,11 +107,11 @@ class PeakSearch {
   }
 
  private:
-  static constexpr double kFirstTolerance_deg = 1.5, kLastTolerance_deg = 2.7;
+  static constexpr double kFirstTolerance_deg = 1.5, kLastTolerance_deg = 2.7, kHeldTolerance_deg = 2.9;
 
   struct Pursued {
     PeakTarget target;
-    double weight = 1;
+    double weight = 1;                                 ///< 0: does not count
     bool was_within = false;                           ///< before anything was changed
     bool was_missed = false, is_out_of_reach = false;  ///< after a round
   };
@@ -122,7 +130,7 @@ class PeakSearch {
     Rank rank;
     int lost = 0;
     for (const Pursued& p : pursued_) {
-      const MotionTorques::Samples& torque_Nm = state.torque_Nm[p.target.motion()];
+      const auto torque_Nm = of(p, state.torque_Nm);
       const bool is_within = p.target.isWithin(torque_Nm);
       rank.within += is_within;
       lost += p.was_within && !is_within;
@@ -142,14 +150,14 @@ class PeakSearch {
 
   /// Makes missed motions count for more. False if none is missed that could be reached.
   bool insist() {
-    constexpr double kMore = 3, kMoreIfLost = 10, kOutOfReach = 0.01;
+    constexpr double kMore = 3, kMoreIfLost = 10;
     bool missed = false;
     for (Pursued& p : pursued_) {
-      if (p.is_out_of_reach || p.target.isWithin(state_.torque_Nm[p.target.motion()])) continue;
+      if (p.is_out_of_reach || p.target.isWithin(of(p, state_.torque_Nm))) continue;
       if (!std::exchange(p.was_missed, true)) {
         p.target.setTolerance(kLastTolerance_deg);
         p.is_out_of_reach = !p.was_within && isOutOfReach(p.target);
-        if (p.is_out_of_reach) p.weight = kOutOfReach;
+        if (p.is_out_of_reach) p.weight = 0;
       }
       if (p.is_out_of_reach) continue;
       p.weight *= p.was_within ? kMoreIfLost : kMore;
@@ -158,14 +166,32 @@ class PeakSearch {
     return missed;
   }
 
-  /// Makes motions count for more that are within the target at the best ratios, but not in `state`. False if there
-  /// are none.
-  bool holdFaster(const MotionTorques::State& state) {
+  /// From the best ratios, one motion more; those that are neither within nor this one do not count. True if it came.
+  bool bringAsWell(const Pursued& wanted, const Job& job) {
+    constexpr int kRounds = 4, kMost = 12;
+    constexpr double kWeight = 10;
+    state_ = best_;
+    for (Pursued& p : pursued_) {
+      const bool is_within = p.target.isWithin(of(p, best_.torque_Nm));
+      p.target.setTolerance(is_within ? kHeldTolerance_deg : kLastTolerance_deg);
+      p.weight = is_within || &p == &wanted ? kWeight : 0;
+    }
+    for (int round = 0; round < kRounds && goesOn(job); ++round) {
+      minimize(Part::Conditions, kMost, job);
+      if (keepIfBetter()) return true;
+      if (!holdFaster(state_.torque_Nm, &wanted)) return false;
+    }
+    return false;
+  }
+
+  /// Makes motions count for more that are within the target at the best ratios, or wanted, but not within at these
+  /// torques. False if there are none.
+  bool holdFaster(const MotionTorques::Table& torque_Nm, const Pursued* wanted = nullptr) {
     constexpr double kMore = 10;
     bool has_lost = false;
     for (Pursued& p : pursued_) {
-      const std::size_t m = p.target.motion();
-      if (!p.target.isWithin(best_.torque_Nm[m]) || p.target.isWithin(state.torque_Nm[m])) continue;
+      const bool is_held = &p == wanted || p.target.isWithin(of(p, best_.torque_Nm));
+      if (!is_held || p.target.isWithin(of(p, torque_Nm))) continue;
       p.weight *= kMore;
       has_lost = true;
     }
@@ -179,14 +205,19 @@ class PeakSearch {
                      {kPeakTorqueTarget_deg, options_.largest_change, kRatios, kRounds}) == PeakReach::Out;
   }
 
-  std::vector<WeightedResiduals> residuals(Part part, const MotionTorques::State& state) const {
+  static MotionTorques::Table::ConstColXpr of(const Pursued& p, const MotionTorques::Table& torque_Nm) {
+    return torque_Nm.col(static_cast<Eigen::Index>(p.target.motion()));
+  }
+
+  std::vector<WeightedResiduals> residuals(Part part, const MotionTorques::Table& torque_Nm) const {
     std::vector<WeightedResiduals> list;
     for (const Pursued& p : pursued_) {
-      const std::size_t m = p.target.motion();
-      const bool holds = part == Part::Conditions || p.target.isWithin(best_.torque_Nm[m]);
-      WeightedResiduals of{m, p.weight, holds ? p.target.violations(state.torque_Nm[m]) : TorqueResiduals{}};
-      if (!of.residuals.empty()) list.push_back(std::move(of));
-      if (part == Part::Angles) list.push_back({m, 1, p.target.deviation(state.torque_Nm[m])});
+      if (p.weight == 0) continue;
+      const bool holds = part == Part::Conditions || p.target.isWithin(of(p, best_.torque_Nm));
+      WeightedResiduals left{p.target.motion(), p.weight,
+                             holds ? p.target.violations(of(p, torque_Nm)) : TorqueResiduals{}};
+      if (!left.residuals.empty()) list.push_back(std::move(left));
+      if (part == Part::Angles) list.push_back({p.target.motion(), 1, p.target.deviation(of(p, torque_Nm))});
     }
     return list;
   }
@@ -194,18 +225,19 @@ class PeakSearch {
   /// Where it is worth going near, it is not worth as large changes as for coming within.
   double price(Part part) const { return options_.ratio_price * (part == Part::Angles ? 10 : 1); }
 
-  struct Expanded {
-    std::vector<WeightedResiduals> left;
-    double energy;
-    PeakExpansion expansion;
-  };
-  Expanded expanded(Part part) const {
-    auto left = residuals(part, state_);
-    const double energy = energyOf(left, state_.ratio, price(part));
-    PeakExpansion expansion = expansionOf(left, torques_, state_, price(part));
-    return {std::move(left), energy, std::move(expansion)};
+  void minimize(Part part, int most_iterations, const Job& job) {
+    PeakObjective objective{[&](const MotionTorques::Table& torque_Nm) { return residuals(part, torque_Nm); },
+                            price(part),
+                            options_.largest_change,
+                            {}};
+    if (part == Part::Angles)
+      objective.allows = [&](const MotionTorques::Table& torque_Nm) { return !holdFaster(torque_Nm); };
+    sinew::minimize(torques_, state_, objective, [&, last = iterations_ + most_iterations] {
+      if (!goesOn(job) || iterations_ == last) return false;
+      job.report(double(iterations_++) / options_.most_iterations, "peak torque");
+      return true;
+    });
   }
-  void minimize(Part part, int most_iterations, const Job& job);
 
   MotionTorques& torques_;
   const std::vector<JointMotion>& motions_;
@@ -217,39 +249,6 @@ class PeakSearch {
   int iterations_ = 0;
 };
 
-/// Levenberg-Marquardt.
-void PeakSearch::minimize(Part part, int most_iterations, const Job& job) {
-  constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-6, kMostDamping = 1e4, kSettled = 1e-2;
-  const double low = 1 - options_.largest_change, high = 1 + options_.largest_change;
-  Expanded now = expanded(part);
-  double damping = kFirstDamping;
-  for (int i = 0; i < most_iterations && goesOn(job) && !now.left.empty() && damping < kMostDamping; ++i) {
-    job.report(double(iterations_) / options_.most_iterations, "peak torque");
-    ++iterations_;
-    Eigen::MatrixXd damped = now.expansion.hessian;
-    damped.diagonal() *= 1 + damping;
-    Eigen::VectorXd ratio = state_.ratio;
-    ratio(now.expansion.units) = boundedStep(ratio(now.expansion.units), now.expansion.gradient, damped, low, high);
-    MotionTorques::State next = state_;
-    torques_.move(next, ratio);
-    if (part == Part::Angles && holdFaster(next)) {
-      now = expanded(part);
-      damping *= 10;
-      continue;
-    }
-    const double next_energy = energyOf(residuals(part, next), ratio, price(part));
-    if (!(next_energy < now.energy)) {
-      damping *= 10;
-      continue;
-    }
-    const bool settled = now.energy - next_energy < kSettled * now.energy;
-    state_ = std::move(next);
-    if (settled) break;
-    now = expanded(part);
-    damping = std::max(kLeastDamping, damping * 0.3);
-  }
-}
-
 }  // namespace
 
 PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::vector<JointMotion>& motions,
@@ -260,6 +259,7 @@ PeakTorqueResult optimizePeakTorque(const TorqueGeometry& geometry, const std::v
   const std::vector<double> before = search.bestThetas();
   if (!search.isRight()) {
     search.bringWithin(job);
+    search.bringOneByOne(job);
     search.bringNear(job);
     if (!options.mirror_of.empty()) search.makeSidesAlike();
   }

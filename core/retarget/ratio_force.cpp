@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/retarget/ratio_force_internal.h"
 
@@ -29,61 +31,69 @@ void setFiberTendonRatio(MusculotendonUnit& unit, double factor) {
   unit.tendon_slack_length_m = scale;
 }
 
-RatioForce::RatioForce(const MusculotendonUnit& unit)
+RatioForce::RatioForce(const MusculotendonUnit& unit, std::shared_ptr<const FiberTable> table)
     : original_{withoutPath(unit)},
-      unit_{original_},
       curves_{unit.curves},
-      cosine_{std::cos(unit.pennation_angle_at_optimal_rad)} {
+      table_{std::move(table)},
+      cosine_{std::cos(unit.pennation_angle_at_optimal_rad)},
+      by_fiber_{longestOf(original_, 1, 0)},
+      by_tendon_{longestOf(original_, 0, 1)} {
   setFactor(1);
 }
 
+RatioForce::RatioForce(const MusculotendonUnit& unit)
+    : RatioForce{unit,
+                 std::make_shared<const FiberTable>(unit.curves, std::cos(unit.pennation_angle_at_optimal_rad))} {}
+
 void RatioForce::setFactor(double factor) {
-  unit_.optimal_fiber_length_m = original_.optimal_fiber_length_m;
-  unit_.tendon_slack_length_m = original_.tendon_slack_length_m;
-  setFiberTendonRatio(unit_, factor);
-  const double by_fiber = longestOf(unit_, 1, 0), by_tendon = longestOf(unit_, 0, 1);
-  const double l0 = unit_.optimal_fiber_length_m, slack = unit_.tendon_slack_length_m;
-  fiber_slope_m_ = l0 * by_tendon * slack / ((by_fiber * l0 + by_tendon * slack) * factor);
-  slack_slope_m_ = -by_fiber / by_tendon * fiber_slope_m_;
+  const double l0 = original_.optimal_fiber_length_m, slack = original_.tendon_slack_length_m;
+  const double ratio = factor * l0 / slack, longest = by_fiber_ * ratio + by_tendon_;
+  slack_m_ = (by_fiber_ * l0 + by_tendon_ * slack) / longest;
+  slack_slope_ = -by_fiber_ * ratio / (longest * factor);
+  fiber_ = ratio * cosine_;
+  fiber_slope_ = fiber_ / factor;
+  shortest_ = kShortestFiber * fiber_ + table_->at(kShortestFiber).tendon.value;
 }
 
-CurveValue RatioForce::at(double length_m, double& start) const {
-  const double l0 = unit_.optimal_fiber_length_m, slack = unit_.tendon_slack_length_m;
-  double l = start, tendon_m = 0, balance_slope = 0;
-  CurveValue active, passive, tendon;
-  const auto imbalance = [&] {
-    tendon_m = length_m - l * l0 * cosine_;
-    active = curves_.active(l);
-    passive = curves_.passive(l);
-    tendon = curves_.tendon(tendon_m / slack);
-    balance_slope = (active.slope + passive.slope) * cosine_ + tendon.slope * l0 * cosine_ / slack;
-    return (active.value + passive.value) * cosine_ - tendon.value;
-  };
-  constexpr double kSmall = 1e-5;  // a step behind which Newton's error is 1e-10, and the curves are straight
-  bool converged = false;
-  for (int i = 0; i < 6 && l > kShortestFiber && !converged; ++i) {
-    const double off = imbalance();
-    if (!(balance_slope > 0)) break;
-    const double step = off / balance_slope;
+CurveValue RatioForce::at(double length_m, CurveValue& fiber) const {
+  const double length = length_m / slack_m_, length_slope = -length * slack_slope_;
+  const double force_N = original_.max_isometric_force_N;
+  if (length <= shortest_) {  // the fibre cannot follow any more: what the tendon carries
+    fiber = {kShortestFiber, 0};
+    const CurveValue tendon = curves_.tendon(length - kShortestFiber * fiber_);
+    return {force_N * tendon.value, force_N * tendon.slope * (length_slope - kShortestFiber * fiber_slope_)};
+  }
+  constexpr double kSmall = 1e-4;  // a step behind which Newton's error is 1e-8, and the curves are straight
+  double l = fiber.value > 0 ? fiber.value : (length - 1) / fiber_;
+  for (int i = 0; i < 8; ++i) {
+    l = std::clamp(l, FiberTable::kFirst, FiberTable::kLast);
+    const FiberTable::Entry entry = table_->at(l);
+    const double slope = fiber_ + entry.tendon.slope;
+    if (!(slope > 0)) break;
+    const double by = 1 / slope, step = (fiber_ * l + entry.tendon.value - length) * by;
     l -= step;
-    active.value -= active.slope * step;
-    converged = std::abs(step) < kSmall;
+    if (!(std::abs(step) < kSmall)) continue;
+    // Implicit function: the balance holds while fibre and tendon change along the ratio.
+    const double l_slope = (length_slope - fiber_slope_ * l) * by;
+    fiber = {l, l_slope};
+    return {force_N * (entry.active.value - entry.active.slope * step), force_N * entry.active.slope * l_slope};
   }
-  if (!converged || !(l > kShortestFiber)) {
-    l = equilibrium(unit_, length_m, 1).normalized_fiber_length;
-    imbalance();
-  }
-  start = l;
-  if (!(tendon.value > 0)) return {};
-  const double force_N = unit_.max_isometric_force_N;
-  if (l <= kShortestFiber)  // the fibre cannot follow any more: what the tendon carries
-    return {force_N * tendon.value,
-            -force_N * tendon.slope * (l * cosine_ * fiber_slope_m_ + tendon_m / slack * slack_slope_m_) / slack};
-  // Implicit function: the balance holds while fibre and tendon change along the ratio.
-  const double balance_by_factor =
-      tendon.slope * (l * cosine_ * fiber_slope_m_ / slack + tendon_m / (slack * slack) * slack_slope_m_);
-  const double l_slope = balance_slope > 0 ? -balance_by_factor / balance_slope : 0;
-  return {force_N * cosine_ * active.value, force_N * cosine_ * active.slope * l_slope};
+  return beyondTable(length_m, fiber);
+}
+
+CurveValue RatioForce::beyondTable(double length_m, CurveValue& fiber) const {
+  MusculotendonUnit unit = original_;
+  unit.tendon_slack_length_m = slack_m_;
+  unit.optimal_fiber_length_m = fiber_ / cosine_ * slack_m_;
+  const FiberState state = equilibrium(unit, length_m, 1);
+  const double l = state.normalized_fiber_length;
+  const CurveValue active = curves_.active(l), passive = curves_.passive(l);
+  const CurveValue tendon = curves_.tendon(length_m / slack_m_ - l * fiber_);
+  const double balance_slope = (active.slope + passive.slope) * cosine_ + tendon.slope * fiber_;
+  const double length_slope = -length_m / slack_m_ * slack_slope_;
+  const double l_slope = balance_slope > 0 ? tendon.slope * (length_slope - l * fiber_slope_) / balance_slope : 0;
+  fiber = {l, l_slope};
+  return {state.active_force_N, unit.max_isometric_force_N * cosine_ * active.slope * l_slope};
 }
 
 }  // namespace sinew

@@ -1,6 +1,9 @@
 #pragma once
+#include <memory>
+
 #include "core/muscle/hill.h"
 #include "core/muscle/musculature.h"
+#include "core/retarget/fiber_table_internal.h"
 
 namespace sinew {
 
@@ -11,20 +14,29 @@ void setFiberTendonRatio(MusculotendonUnit& unit, double factor);
 MusculotendonUnit withoutPath(const MusculotendonUnit& unit);
 
 /// The active force of a fully active unit as a function of a factor on its fibre : tendon ratio, many times over:
-/// Newton from the fibre length found last.
+/// Newton on tabulated curves from the fibre length found last.
 class RatioForce {
  public:
+  /// `table`: of the unit's curves and pennation.
+  RatioForce(const MusculotendonUnit& unit, std::shared_ptr<const FiberTable> table);
   explicit RatioForce(const MusculotendonUnit& unit);
   void setFactor(double factor);
-  /// Force [N] along the tendon and its slope with the factor. `normalized_fiber_length`: in, where to start (0:
-  /// nothing known); out, where it is.
-  CurveValue at(double length_m, double& normalized_fiber_length) const;
+  /// Force [N] along the tendon and its slope with the factor. `fiber`: normalised length; in, where to start (0:
+  /// nothing known); out, where it is, and its slope with the factor.
+  CurveValue at(double length_m, CurveValue& fiber) const;
 
  private:
-  MusculotendonUnit original_, unit_;  ///< without their paths
+  CurveValue beyondTable(double length_m, CurveValue& fiber) const;
+
+  MusculotendonUnit original_;  ///< without its path
   HillCurves curves_;
-  double cosine_;                                 ///< of the pennation angle
-  double fiber_slope_m_ = 0, slack_slope_m_ = 0;  ///< with the factor
+  std::shared_ptr<const FiberTable> table_;
+  double cosine_;                ///< of the pennation angle
+  double by_fiber_, by_tendon_;  ///< what the longest length takes of 1 m of each
+  // At the factor set last; slopes with it.
+  double slack_m_ = 0, slack_slope_ = 0;               ///< of the tendon; slope: relative
+  double fiber_ = 0, fiber_slope_ = 0, shortest_ = 0;  ///< along the tendon at optimal length, in slack lengths;
+                                                       ///< whole unit where its fibre is shortest
 };
 
 }  // namespace sinew

@@ -7,6 +7,7 @@
 #include "core/muscle/hill.h"
 #include "core/retarget/peak_condition_internal.h"
 #include "core/retarget/peak_reach.h"
+#include "core/retarget/peak_rows_internal.h"
 #include "core/retarget/peak_torque.h"
 #include "core/retarget/ratio_force_internal.h"
 #include "tests/support/resources.h"
@@ -104,7 +105,7 @@ TEST(PeakTorque, TheSlopeOfTheForceWithTheRatioIsThatOfCentralDifferences) {
   const MusculotendonUnit unit = Elbow{}.model.musculature.units[0];
   RatioForce force{unit};
   const double length_m = 0.95 * (unit.optimal_fiber_length_m + unit.tendon_slack_length_m);
-  double fiber = 0;
+  CurveValue fiber;
   force.setFactor(1.1);
   const CurveValue at = force.at(length_m, fiber);
   constexpr double kStep = 1e-5;
@@ -118,7 +119,7 @@ TEST(PeakTorque, TheSlopeOfTheForceWithTheRatioIsThatOfCentralDifferences) {
 TEST(PeakTorque, TheForceIsThatOfTheEquilibriumDownToSlack) {
   const MusculotendonUnit unit = Elbow{}.model.musculature.units[0];
   RatioForce force{unit};
-  double fiber = 0;
+  CurveValue fiber;
   int carried = 0;
   // From long to shorter than the tendon: past the shortest fibre, where the tendon alone slackens.
   const double first_m = longestLength_m(unit), last_m = 0.9 * unit.tendon_slack_length_m;
@@ -126,7 +127,7 @@ TEST(PeakTorque, TheForceIsThatOfTheEquilibriumDownToSlack) {
     const double length_m = first_m + (last_m - first_m) * i / 4000;
     const double expected_N = equilibrium(unit, length_m, 1).active_force_N;
     ASSERT_NEAR(force.at(length_m, fiber).value, expected_N, 1e-6 * unit.max_isometric_force_N) << length_m;
-    carried += fiber <= kShortestFiber && expected_N > 0;
+    carried += fiber.value <= kShortestFiber && expected_N > 0;
   }
   EXPECT_GT(carried, 0);  // that stretch was met
 }
@@ -178,6 +179,59 @@ TEST(PeakReach, NoRatiosGiveAPeakWhereTheArmsVanish) {
   EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], 0, elbow.model.musculature), PeakReach::Out);
   EXPECT_EQ(peakReach(geometry, 0, elbow.motions[0], 0, elbow.model.musculature, {.tolerance_deg = 200}),
             PeakReach::Within);
+}
+
+TEST(PeakReach, OneMotionCannotHaveTwoPeaksAtOnce) {
+  const Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  const double now = peakTheta(motionTorque_Nm(elbow.model.musculature, geometry, 0));
+  const PeakWish here{0, elbow.motions[0], now}, beside{0, elbow.motions[0], now + 0.05};  // 7 deg
+  const auto reach = [&](std::vector<PeakWish> wishes) {
+    return peakReach(geometry, wishes, elbow.model.musculature, {.tolerance_deg = 1});
+  };
+  ASSERT_EQ(reach({beside}), PeakReach::Within);
+  EXPECT_EQ(reach({here, here}), PeakReach::Within);
+  EXPECT_EQ(reach({here, beside}), PeakReach::Out);
+}
+
+TEST(PeakRows, TheTargetIsTheMinimumWithinBounds) {
+  const Elbow elbow;
+  const TorqueGeometry geometry = elbow.geometry();
+  MotionTorques torques{geometry, elbow.model.musculature};
+  const MotionTorques::State state = torques.original();
+  constexpr double kWeight = 2, kPrice = 1e-2;
+  // Two torques of the motion wanted higher by 1 N m, one lower.
+  std::vector<WeightedResiduals> list{
+      {0, kWeight, {{1, {3, 4, 5}, {-1, 0, 0}}, {1, {9, 4, 5}, {-1, 0, 0}}, {1, {20, 4, 5}, {1, 0, 0}}}}};
+  const PeakRows rows{list, torques, state};
+  Eigen::VectorXd low = Eigen::VectorXd::Constant(3, -100), high = Eigen::VectorXd::Constant(3, 100);
+  const Eigen::VectorXd unbounded = rows.target(state.ratio, low, high, kPrice);
+  ASSERT_GT(std::abs(unbounded[0] - 1), 1e-3);  // half of that way is what the bounds of the first unit allow
+  (unbounded[0] < 1 ? low : high)[0] = 0.5 * (1 + unbounded[0]);
+  const Eigen::VectorXd x = rows.target(state.ratio, low, high, kPrice);
+  Eigen::VectorXd gradient = 2 * kPrice * (x.array() - 1);
+  for (const TorqueResidual& r : list[0].residuals) {
+    Eigen::VectorXd slope(3);
+    for (std::size_t u = 0; u < 3; ++u)
+      slope[Eigen::Index(u)] = r.slope_1_Nm[0] * state.shares[u].slope_Nm[r.sample[0]];
+    gradient += 2 * kWeight * (r.value + slope.dot(x - state.ratio)) * slope;
+  }
+  int held = 0;
+  for (Eigen::Index u = 0; u < 3; ++u) {
+    ASSERT_GE(x[u], low[u]);
+    ASSERT_LE(x[u], high[u]);
+    const bool is_low = x[u] == low[u], is_high = x[u] == high[u];
+    held += is_low || is_high;
+    if (is_low) {
+      EXPECT_GT(gradient[u], 0);
+    } else if (is_high) {
+      EXPECT_LT(gradient[u], 0);
+    } else {
+      EXPECT_NEAR(gradient[u], 0, 1e-9);
+    }
+  }
+  EXPECT_GT(held, 0);  // both kinds were met
+  EXPECT_LT(held, 3);
 }
 
 }  // namespace

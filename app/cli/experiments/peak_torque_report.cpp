@@ -18,7 +18,7 @@ double off_deg(double angle_deg, const PeakTorqueAngle& a) {
 /// One character's angles, and what is known of those that stay off.
 struct Judged {
   const Character& character;
-  std::vector<std::optional<PeakReach>> missed;
+  std::vector<std::optional<MissedPeak>> missed;
   PeakCount count;
 };
 
@@ -32,8 +32,10 @@ std::vector<Judged> judged(const RetargetReference& reference, const std::vector
   return list;
 }
 
-std::string nameOf(PeakReach reach) {
-  return reach == PeakReach::Out ? "by no ratios" : reach == PeakReach::Within ? "can be" : "not decided";
+std::string textOf(const MissedPeak& missed, const std::vector<PeakTorqueAngle>& angles) {
+  if (missed.alone == PeakReach::Out) return "by no ratios";
+  if (missed.alone == PeakReach::Undecided) return "not decided";
+  return missed.instead_of ? "not with " + angles[*missed.instead_of].motion : "can be";
 }
 
 std::string textOf(const std::vector<Judged>& characters) {
@@ -42,18 +44,19 @@ std::string textOf(const std::vector<Judged>& characters) {
     const PeakCount& n = j.count;
     const std::string& name = j.character.body.name;
     totals.push_back({name, std::to_string(n.motions), std::to_string(n.before), std::to_string(n.after),
-                      std::to_string(n.out_of_reach), std::to_string(n.undecided), fixed(n.worst_before_deg, 1),
-                      fixed(n.worst_after_deg, 1)});
+                      std::to_string(n.out_of_reach), std::to_string(n.instead), std::to_string(n.undecided),
+                      fixed(n.worst_before_deg, 1), fixed(n.worst_after_deg, 1)});
     const auto& angles = j.character.retargeted.peak_torque;
     for (std::size_t m = 0; m < angles.size(); ++m)
       if (const PeakTorqueAngle& a = angles[m]; j.missed[m] && !a.motion.ends_with("_l"))
         off.push_back({name + ", " + a.motion, fixed(a.reference_deg, 1), fixed(a.before_deg, 1),
-                       fixed(a.after_deg, 1), nameOf(*j.missed[m])});
+                       fixed(a.after_deg, 1), textOf(*j.missed[m], angles)});
   }
-  std::string text = textTable({"", "motions", "within 3 deg before", "after", "by no ratios", "not decided",
-                                "worst before deg", "after deg"},
+  std::string text = textTable({"", "motions", "within 3 deg before", "after", "by no ratios", "not with another",
+                                "not decided", "worst before deg", "after deg"},
                                totals) +
-                     "by no ratios: proven for that motion alone, every ratio within 30 % in steps of 0.5 %\n";
+                     "by no ratios: proven for that motion alone, every ratio within 30 % in steps of 0.5 %\n"
+                     "not with another: proven for it and a motion that is within, in steps of 1 %\n";
   if (!off.empty())
     text += "off by more than 3 deg after (right side):\n" +
             textTable({"motion", "reference deg", "before deg", "after deg", "alone"}, off);
@@ -87,16 +90,20 @@ std::string figureOf(const std::vector<Character>& characters) {
 }
 
 Json countJson(const PeakCount& n) {
-  return {{"motions", n.motions}, {"within_before", n.before},      {"within_after", n.after},
-          {"left", n.left},       {"out_of_reach", n.out_of_reach}, {"not_decided", n.undecided}};
+  return {{"motions", n.motions},           {"within_before", n.before},
+          {"within_after", n.after},        {"left", n.left},
+          {"out_of_reach", n.out_of_reach}, {"not_with_another", n.instead},
+          {"not_decided", n.undecided}};
 }
 
 std::vector<Verdict> verdictsOf(const PeakCount& n, const std::string& bodies) {
-  const int reachable = n.motions - n.out_of_reach;
+  const int reachable = n.motions - n.out_of_reach - n.instead;
   const auto of = [&](int count) { return std::to_string(count) + " of " + std::to_string(n.motions); };
   return {{bodies + ": motions within 3 deg before step 3", "", "reported", of(n.before), std::nullopt},
           {bodies + ": motions within 3 deg", "restored", "all", of(n.after), n.after == n.motions},
           {bodies + ": that no ratio within 30 % brings there, each alone", "", "reported", of(n.out_of_reach),
+           std::nullopt},
+          {bodies + ": that no ratio brings there together with one that is within", "", "reported", of(n.instead),
            std::nullopt},
           {bodies + ": of the others within 3 deg", "", "all",
            std::to_string(n.after) + " of " + std::to_string(reachable), n.after == reachable},
