@@ -76,6 +76,7 @@ class PeakSearch {
     for (PursuedPeak& p : peaks_.all()) {
       p.target.setTolerance(kLastTolerance_deg);
       p.weight = kHold;
+      p.is_wanted = false;
     }
     minimize({[&](const auto& torque_Nm) { return peaks_.deviations(torque_Nm, best_.torque_Nm); },
               kDearer * options_.ratio_price, options_.largest_change,
@@ -84,8 +85,8 @@ class PeakSearch {
     keepIfBetter();
   }
 
-  /// Both sides with the ratios of the better one, unless that leaves fewer motions within the target: the search
-  /// goes through them one after the other and may end in two places.
+  /// Both sides with the ratios of the better one, unless that leaves fewer motions within the target: roundings may
+  /// have led them to two places.
   void makeSidesAlike() {
     std::optional<std::pair<PeakRank, MotionTorques::State>> better;
     for (const bool from_second : {false, true}) {
@@ -133,26 +134,33 @@ class PeakSearch {
     return missed;
   }
 
-  /// One motion more than at the best ratios; those that are neither within nor this one do not count. True if it
-  /// came. One that never was there, whatever became of the others, is given up.
+  /// One motion more than at the best ratios, with its mirror image where the sides are alike, so that they stay so;
+  /// those that are neither within nor wanted do not count. True if it came. One that never was there, whatever
+  /// became of the others, is given up.
   bool bringAsWell(PursuedPeak& wanted, const MotionTorques::State& from, const Job& job) {
     constexpr int kRounds = 4, kMost = 12;
     constexpr double kWeight = 10;  // against the price of ratios
     state_ = from;
     for (PursuedPeak& p : peaks_.all()) {
       const bool is_within = p.isWithin(best_.torque_Nm);
+      p.is_wanted = !is_within && (&p == &wanted || isMirrorOf(p, wanted));
       p.target.setTolerance(is_within ? kHeldTolerance_deg : kLastTolerance_deg);
-      p.weight = is_within || &p == &wanted ? kWeight : 0;
+      p.weight = is_within || p.is_wanted ? kWeight : 0;
     }
     bool came = false;
     for (int round = 0; round < kRounds && goesOn(job); ++round) {
       minimizeViolations(kMost, job);
       if (keepIfBetter()) return true;
       came = came || wanted.isWithin(state_.torque_Nm);
-      if (!peaks_.holdFaster(state_.torque_Nm, best_.torque_Nm, &wanted)) break;
+      if (!peaks_.holdFaster(state_.torque_Nm, best_.torque_Nm)) break;
     }
-    wanted.is_out_of_reach = !came;
+    for (PursuedPeak& p : peaks_.all()) p.is_out_of_reach = p.is_out_of_reach || (p.is_wanted && !came);
     return false;
+  }
+
+  bool isMirrorOf(const PursuedPeak& peak, const PursuedPeak& other) const {
+    return !options_.mirror_motion_of.empty() &&
+           options_.mirror_motion_of[peak.target.motion()] == static_cast<int>(other.target.motion());
   }
 
   bool isOutOfReach(const PeakTarget& target) const {

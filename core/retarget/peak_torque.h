@@ -27,6 +27,7 @@ struct PeakTorqueOptions {
   /// By unit: its counterpart on the other side (-1: none), in a body whose sides are alike; both then keep the same
   /// ratio if that costs no motion. Empty: the sides differ.
   std::vector<int> mirror_of;
+  std::vector<int> mirror_motion_of;  ///< by motion, likewise: both are brought within the target at once
 };
 
 struct PeakTorqueResult {

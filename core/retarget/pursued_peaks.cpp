@@ -35,12 +35,11 @@ bool PursuedPeaks::areRight(const MotionTorques::Table& torque_Nm) const {
                              [&](const PursuedPeak& p) { return p.target.off_deg(p.of(torque_Nm)) <= kRight_deg; });
 }
 
-bool PursuedPeaks::holdFaster(const MotionTorques::Table& torque_Nm, const MotionTorques::Table& best_Nm,
-                              const PursuedPeak* wanted) {
+bool PursuedPeaks::holdFaster(const MotionTorques::Table& torque_Nm, const MotionTorques::Table& best_Nm) {
   constexpr double kMore = 10;
   bool has_lost = false;
   for (PursuedPeak& p : peaks_) {
-    const bool is_held = &p == wanted || p.isWithin(best_Nm);
+    const bool is_held = p.is_wanted || p.isWithin(best_Nm);
     if (!is_held || p.isWithin(torque_Nm)) continue;
     p.weight *= kMore;
     has_lost = true;

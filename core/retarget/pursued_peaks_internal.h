@@ -21,6 +21,7 @@ struct PursuedPeak {
   double weight = 1;                                 ///< 0: does not count
   bool was_within = false;                           ///< before anything was changed
   bool was_missed = false, is_out_of_reach = false;  ///< after a round; or given up
+  bool is_wanted = false;                            ///< to be brought beside those that are within
 
   bool isWithin(const MotionTorques::Table& torque_Nm) const { return target.isWithin(of(torque_Nm)); }
   MotionTorques::Table::ConstColXpr of(const MotionTorques::Table& torque_Nm) const {
@@ -41,8 +42,7 @@ class PursuedPeaks {
   bool areRight(const MotionTorques::Table& torque_Nm) const;
   /// Makes those count for more that are within the target at `best_Nm`, or wanted, but not within at these torques.
   /// False if there are none.
-  bool holdFaster(const MotionTorques::Table& torque_Nm, const MotionTorques::Table& best_Nm,
-                  const PursuedPeak* wanted = nullptr);
+  bool holdFaster(const MotionTorques::Table& torque_Nm, const MotionTorques::Table& best_Nm);
 
   /// What the conditions lack.
   std::vector<WeightedResiduals> violations(const MotionTorques::Table& torque_Nm) const;

@@ -66,6 +66,7 @@ RetargetReference::RetargetReference(Model model, std::vector<JointMotion> motio
       ranges_{model_},
       torque_postures_{motionPostures(model_.skeleton, motions_)},
       units_of_motion_{unitsSpanning(model_, motions_)},
+      mirror_motion_of_{mirrorMotions(model_.skeleton, motions_)},
       peak_thetas_{peaksOf(model_.musculature, {model_, torque_postures_, units_of_motion_, motions_})} {}
 
 std::shared_ptr<const RetargetReference> loadRetargetReference(const std::filesystem::path& resource_dir,
@@ -127,7 +128,10 @@ Retargeted retargeted(const RetargetReference& reference, const ShapeParameters&
                                                         reference.unitsOfMotion(), reference.motions());
   PeakTorqueOptions peak_options;
   if (naive || !options.peak_torque) peak_options.most_iterations = 0;
-  if (shape.sides[0] == shape.sides[1]) peak_options.mirror_of = reference.routing().mirrorOf();
+  if (shape.sides[0] == shape.sides[1]) {
+    peak_options.mirror_of = reference.routing().mirrorOf();
+    peak_options.mirror_motion_of = reference.mirrorMotionOf();
+  }
   const auto optimize = options.method == RetargetMethod::Paper ? descendPeakTorque : optimizePeakTorque;
   PeakTorqueResult peaks = optimize(*result.torque_geometry, reference.motions(), reference.peakThetas(),
                                     result.model.musculature, peak_options, step(job, 0.8, 1));

@@ -37,7 +37,8 @@ class RetargetReference {
   const RangeSamples& ranges() const { return ranges_; }
   const PoseTable& torquePostures() const { return torque_postures_; }
   const std::vector<std::vector<int>>& unitsOfMotion() const { return units_of_motion_; }
-  const std::vector<double>& peakThetas() const { return peak_thetas_; }  ///< by motion
+  const std::vector<int>& mirrorMotionOf() const { return mirror_motion_of_; }  ///< by motion, see mirrorMotions()
+  const std::vector<double>& peakThetas() const { return peak_thetas_; }        ///< by motion
 
  private:
   Model model_;
@@ -48,6 +49,7 @@ class RetargetReference {
   RangeSamples ranges_;
   PoseTable torque_postures_;
   std::vector<std::vector<int>> units_of_motion_;
+  std::vector<int> mirror_motion_of_;
   std::vector<double> peak_thetas_;
 };
 

@@ -1,10 +1,12 @@
 #include "core/skeleton/joint_motion.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/skeleton/clinical_angles.h"
+#include "core/skeleton/mirrored_posture.h"
 #include "core/strict_json.h"
 #include "core/text.h"
 
@@ -72,6 +74,25 @@ const JointMotion& findMotion(const std::vector<JointMotion>& motions, std::stri
   }
   if (without_side) return *without_side;
   throw InputError{"joint motion '" + std::string{name} + "' does not exist" + didYouMean(name, known)};
+}
+
+std::vector<int> mirrorMotions(const Skeleton& skeleton, const std::vector<JointMotion>& motions) {
+  constexpr double kSame_rad = 1e-9;
+  const auto ends = [&](const JointMotion& motion) {
+    return std::array{clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 0)),
+                      clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 1))};
+  };
+  std::vector<std::array<Eigen::VectorXd, 2>> seen;
+  for (const JointMotion& motion : motions) seen.push_back(ends(motion));
+  std::vector<int> mirror_of;
+  for (const auto& [start, end] : seen) {
+    const auto found = std::ranges::find_if(seen, [&](const auto& other) {
+      return (other[0] - mirroredClinical(skeleton, start)).cwiseAbs().maxCoeff() < kSame_rad &&
+             (other[1] - mirroredClinical(skeleton, end)).cwiseAbs().maxCoeff() < kSame_rad;
+    });
+    mirror_of.push_back(found == seen.end() ? -1 : static_cast<int>(found - seen.begin()));
+  }
+  return mirror_of;
 }
 
 Posture motionPosture(const Skeleton& skeleton, const JointMotion& motion, double theta) {

@@ -30,6 +30,9 @@ std::vector<JointMotion> loadJointMotions(const std::filesystem::path& resource_
 /// @throws InputError with the nearest names.
 const JointMotion& findMotion(const std::vector<JointMotion>& motions, std::string_view name, char side = 'r');
 
+/// By motion: the one that is it seen in the mirror - of the other side, or to the other side; -1 if none is.
+std::vector<int> mirrorMotions(const Skeleton& skeleton, const std::vector<JointMotion>& motions);
+
 /// Posture at theta.
 Posture motionPosture(const Skeleton& skeleton, const JointMotion& motion, double theta);
 

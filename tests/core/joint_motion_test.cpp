@@ -70,6 +70,24 @@ TEST_F(JointMotions, AreFoundByNameTitleAndSide) {
   }
 }
 
+TEST_F(JointMotions, HaveMirrorImages) {
+  const std::vector<int> mirror_of = mirrorMotions(skeleton_, motions_);
+  const auto mirrorOf = [&](std::string_view name) {
+    const auto index = &findMotion(motions_, name) - motions_.data();
+    const int image = mirror_of[static_cast<std::size_t>(index)];
+    EXPECT_EQ(mirror_of.at(static_cast<std::size_t>(image)), index) << name;
+    return motions_.at(static_cast<std::size_t>(image)).name;
+  };
+  EXPECT_EQ(mirrorOf("hip_medial_rotation_l"), "hip_medial_rotation_r");
+  EXPECT_EQ(mirrorOf("forearm_supination_r"), "forearm_supination_l");
+  EXPECT_EQ(mirrorOf("neck_rotation_left"), "neck_rotation_right");
+  EXPECT_EQ(mirrorOf("lumbar_lateral_flexion_right"), "lumbar_lateral_flexion_left");
+  EXPECT_EQ(mirrorOf("thorax_extension"), "thorax_extension");
+
+  const JointMotion alone{.name = "bend", .coordinate = "neck_lateral_flexion", .start_deg = -30, .end_deg = 20};
+  EXPECT_EQ(mirrorMotions(skeleton_, {alone}), std::vector{-1});
+}
+
 TEST_F(JointMotions, PostureMovesTheNamedCoordinateLinearly) {
   const JointMotion& motion = findMotion(motions_, "forearm_pronation_r");
   for (const double theta : {0.0, 0.25, 1.0}) {

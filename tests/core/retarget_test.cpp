@@ -8,6 +8,7 @@
 
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
+#include "core/skeleton/body_description.h"
 #include "tests/support/retarget_reference.h"
 
 namespace sinew {
@@ -60,9 +61,11 @@ TEST(Retarget, EveryPostureOfTheSetStaysValid) {
 }
 
 TEST(Retarget, ABodyThatIsItsOwnMirrorImageHasMusclesThatAreToo) {
-  ShapeParameters shape;
-  for (SideShape& side : shape.sides) side.femur = {.elongation = 1.2, .torsion_rad = -0.2};
-  for (const bool peak_torque : {false, true}) {
+  ShapeParameters long_thighs;
+  for (SideShape& side : long_thighs.sides) side.femur = {.elongation = 1.2, .torsion_rad = -0.2};
+  // Here step 3 has many motions to bring back one by one.
+  const ShapeParameters hulk = loadShapePreset(test::resourceDir(), "hulk").shape;
+  for (const auto& [shape, peak_torque] : {std::pair{long_thighs, false}, {long_thighs, true}, {hulk, true}}) {
     const Retargeted result = retarget(reference(), shape, {.peak_torque = peak_torque});
     ASSERT_EQ(result.outcome, Outcome::Converged);
     const auto& mirror_of = reference().routing().mirrorOf();
