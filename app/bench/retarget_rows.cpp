@@ -91,15 +91,15 @@ void RetargetRows::addRoutingOnDart(const std::shared_ptr<const Model>& naive, c
     std::string id, name;
   };
   const auto dart = std::make_shared<DartRouting>(*reference_, *naive);
+  for (std::size_t u = 0; dart->isThere() && u < solved.size(); ++u)
+    if (std::abs(dart->startEnergy(u) - solved[u].start.paper({})) > 1e-9 * (1 + solved[u].start.paper({})))
+      throw std::runtime_error{"row 7 is not timed: the energy of " + solved[u].unit + " differs with DART"};
   for (const Way& way : {Way{DartRouting::Differences::OneByOne, "7 DART", "every energy by itself"},
                          Way{DartRouting::Differences::OnePass, "7 DART, one pass", "all differences in one pass"}}) {
     BenchRow on_dart =
         row(7, way.id, "the same", "body", 80, DartPeer::version() + ", gradient descent, " + way.name);
     on_dart.ours = ours;
     if (dart->isThere()) {
-      for (std::size_t u = 0; u < solved.size(); ++u)
-        if (std::abs(dart->startEnergy(u) - solved[u].start.paper({})) > 1e-9 * (1 + solved[u].start.paper({})))
-          throw std::runtime_error{"row 7 is not timed: the energy of " + solved[u].unit + " differs with DART"};
       const UnitSample sample = sampleOf(*dart, way.differences, solved.size());
       on_dart.peer = Workload{[dart, sample, differences = way.differences] {
                                 for (const std::size_t u : sample.units) dart->descend(u, differences);

@@ -11,8 +11,11 @@ namespace sinew {
 
 namespace {
 
+bool isWithin(double angle_deg, const PeakTorqueAngle& a) {
+  return std::abs(angle_deg - a.reference_deg) <= kPeakTorqueTarget_deg;
+}
 bool isWithin(const PeakTorqueAngle& a) {
-  return std::abs(a.after_deg - a.reference_deg) <= kPeakTorqueTarget_deg;
+  return isWithin(a.after_deg, a);
 }
 
 /// A motion that is within and shares units, and that no ratios bring there together with the missed one.
@@ -67,7 +70,7 @@ PeakCount peakCount(const std::vector<PeakTorqueAngle>& angles,
                   .worst_after_deg = t.worst_after_deg};
   for (std::size_t m = 0; m < angles.size(); ++m) {
     if (!missed[m]) continue;
-    count.left += std::abs(angles[m].before_deg - angles[m].reference_deg) <= kPeakTorqueTarget_deg;
+    count.left += isWithin(angles[m].before_deg, angles[m]);
     count.out_of_reach += missed[m]->alone == PeakReach::Out;
     count.undecided += missed[m]->alone == PeakReach::Undecided;
     count.instead += missed[m]->instead_of.has_value();

@@ -33,4 +33,11 @@ std::vector<std::vector<TorqueCondition>> peakAlternatives(double low, double hi
   return alternatives;
 }
 
+std::vector<std::vector<TorqueCondition>> peakAlternatives(double wanted_theta, double tolerance_deg,
+                                                           double span_deg) {
+  constexpr int kSteps = TorqueGeometry::kSamples - 1;
+  const double wanted = wanted_theta * kSteps, tolerance = tolerance_deg * kSteps / span_deg;
+  return peakAlternatives(wanted - tolerance, wanted + tolerance);
+}
+
 }  // namespace sinew

@@ -24,4 +24,8 @@ std::vector<TorqueCondition> peakConditions(int sample, double low, double high)
 /// peakTheta() lies within [low, high] exactly if all conditions of one of these hold.
 std::vector<std::vector<TorqueCondition>> peakAlternatives(double low, double high);
 
+/// The same for `tolerance_deg` on both sides of a theta in [0, 1], of a motion that goes through `span_deg`.
+std::vector<std::vector<TorqueCondition>> peakAlternatives(double wanted_theta, double tolerance_deg,
+                                                           double span_deg);
+
 }  // namespace sinew

@@ -22,7 +22,6 @@ std::vector<Eigen::MatrixXd> tabulated(const TorqueGeometry& geometry, std::span
   std::map<int, Eigen::MatrixXd> by_unit;
   for (std::size_t w = 0; w < wishes.size(); ++w) {
     MotionTorques::Samples first = MotionTorques::Samples::Zero();
-    std::vector<int> units;
     const auto place = static_cast<Eigen::Index>(w) * kSamples;
     for (const TorqueGeometry::UnitInMotion& swept : geometry.unitsOf(wishes[w].index)) {
       RatioForce force{musculature.units[static_cast<std::size_t>(swept.unit)]};
@@ -85,14 +84,13 @@ using Conditions = std::vector<TorqueCondition>;
 
 /// Every choice of one alternative for each wish: conditions on the samples of all.
 std::vector<Conditions> combined(std::span<const PeakWish> wishes, double tolerance_deg) {
-  constexpr int kSteps = kSamples - 1;
   std::vector<Conditions> all{{}};
   for (std::size_t w = 0; w < wishes.size(); ++w) {
-    const double tolerance = tolerance_deg * kSteps / std::abs(wishes[w].motion.end_deg - wishes[w].motion.start_deg);
-    const double wanted = wishes[w].wanted_theta * kSteps;
+    const double span_deg = std::abs(wishes[w].motion.end_deg - wishes[w].motion.start_deg);
+    const auto alternatives = peakAlternatives(wishes[w].wanted_theta, tolerance_deg, span_deg);
     std::vector<Conditions> longer;
     for (const Conditions& chosen : all)
-      for (const Conditions& more : peakAlternatives(wanted - tolerance, wanted + tolerance)) {
+      for (const Conditions& more : alternatives) {
         Conditions& both = longer.emplace_back(chosen);
         for (TorqueCondition c : more) {
           for (int& sample : c.sample) sample += static_cast<int>(w) * kSamples;

@@ -8,8 +8,6 @@
 namespace sinew {
 namespace {
 
-constexpr int kSteps = TorqueGeometry::kSamples - 1;
-
 /// By how much a condition has to hold: samples far from the highest stay a little below it.
 double margin(const TorqueCondition& c) {
   constexpr double kMargin = 1e-3, kFar = 4;  // in full that many samples off
@@ -37,9 +35,8 @@ double PeakTarget::off(const Eigen::Ref<const MotionTorques::Samples>& torque_Nm
 }
 
 void PeakTarget::setTolerance(double tolerance_deg) {
-  const double wanted = wanted_theta_ * kSteps, tolerance = tolerance_deg * kSteps / span_deg_;
   alternatives_.clear();
-  for (const auto& conditions : peakAlternatives(wanted - tolerance, wanted + tolerance)) {
+  for (const auto& conditions : peakAlternatives(wanted_theta_, tolerance_deg, span_deg_)) {
     auto& alternative = alternatives_.emplace_back();
     for (const TorqueCondition& c : conditions) alternative.push_back({c, margin(c)});
   }

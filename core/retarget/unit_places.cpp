@@ -70,8 +70,9 @@ void UnitRouter::setBasis(const Anchor& anchor, const Eigen::Vector3d& p_B, cons
 void UnitRouter::setGuard(int bone, double kept_m, const std::vector<Anchor>& anchors,
                           UnitProblem::Point& point) const {
   const RigidTransform& X_WB = poses_.atZero()[static_cast<std::size_t>(bones_.segment(bone))];
-  const auto surface = bones_[bone].nearest(X_WB.inverse() * atRest(anchors));
-  point.outward_W = X_WB.linear() * surface.outward(X_WB.inverse() * atRest(anchors));
+  const Eigen::Vector3d p_B = X_WB.inverse() * atRest(anchors);
+  const auto surface = bones_[bone].nearest(p_B);
+  point.outward_W = X_WB.linear() * surface.outward(p_B);
   // What lay inside in the reference may stay as deep as it is.
   point.slack_m = kept_m > 0 ? surface.distance_m - std::min(kept_m, kLeastClearance_m) : 0;
 }

@@ -78,19 +78,19 @@ const JointMotion& findMotion(const std::vector<JointMotion>& motions, std::stri
 
 std::vector<int> mirrorMotions(const Skeleton& skeleton, const std::vector<JointMotion>& motions) {
   constexpr double kSame_rad = 1e-9;
-  const auto ends = [&](const JointMotion& motion) {
-    return std::array{clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 0)),
-                      clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 1))};
-  };
-  std::vector<std::array<Eigen::VectorXd, 2>> seen;
-  for (const JointMotion& motion : motions) seen.push_back(ends(motion));
+  std::vector<std::array<Eigen::VectorXd, 2>> ends;
+  for (const JointMotion& motion : motions)
+    ends.push_back({clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 0)),
+                    clinicalFromPosture(skeleton, motionPosture(skeleton, motion, 1))});
   std::vector<int> mirror_of;
-  for (const auto& [start, end] : seen) {
-    const auto found = std::ranges::find_if(seen, [&](const auto& other) {
-      return (other[0] - mirroredClinical(skeleton, start)).cwiseAbs().maxCoeff() < kSame_rad &&
-             (other[1] - mirroredClinical(skeleton, end)).cwiseAbs().maxCoeff() < kSame_rad;
+  for (const auto& [start, end] : ends) {
+    const Eigen::VectorXd start_image = mirroredClinical(skeleton, start),
+                          end_image = mirroredClinical(skeleton, end);
+    const auto found = std::ranges::find_if(ends, [&](const auto& other) {
+      return (other[0] - start_image).cwiseAbs().maxCoeff() < kSame_rad &&
+             (other[1] - end_image).cwiseAbs().maxCoeff() < kSame_rad;
     });
-    mirror_of.push_back(found == seen.end() ? -1 : static_cast<int>(found - seen.begin()));
+    mirror_of.push_back(found == ends.end() ? -1 : static_cast<int>(found - ends.begin()));
   }
   return mirror_of;
 }
