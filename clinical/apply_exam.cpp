@@ -10,7 +10,7 @@
 #include "clinical/physical_exam.h"
 #include "core/angle.h"
 #include "core/ceres_job_internal.h"
-#include "core/rom/exam_sweep.h"
+#include "core/rom/tests/exam_sweep.h"
 
 namespace sinew {
 namespace {

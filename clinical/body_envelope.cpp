@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include "clinical/isosurface.h"
 #include "clinical/xray_attenuation.h"
+#include "core/geometry/isosurface.h"
 
 namespace sinew {
 namespace {

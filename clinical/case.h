@@ -8,7 +8,7 @@
 
 #include "clinical/physical_exam.h"
 #include "core/job.h"
-#include "core/skeleton/fit_skeleton.h"
+#include "core/skeleton/fit/fit_skeleton.h"
 #include "imaging/biplanar_rig.h"
 #include "imaging/sighting.h"
 #include "imaging/triangulate.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "clinical/physical_exam_json.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {
 namespace {

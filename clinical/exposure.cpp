@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "clinical/parallel_rows.h"
-#include "clinical/random_source.h"
+#include "core/parallel_rows.h"
+#include "core/random_source.h"
 
 namespace sinew {
 namespace {

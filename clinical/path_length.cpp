@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "clinical/parallel_rows.h"
 #include "core/error.h"
+#include "core/parallel_rows.h"
 
 namespace sinew {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/job.h"
 #include "core/model/model.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 
 namespace sinew {
 
@@ -64,9 +64,9 @@ struct ExamFit {
   Warnings warnings;
 };
 
-/// Solves one length factor per muscle group and side so that all simulated tests meet the measured ones: bounded least
-/// squares (0.6-1.4), weights 1 / measurement SD, a weak pull to 1 so that untested groups stay. What cannot be met
-/// together remains as residual, test by test. Thresholds scale with body mass (mass_kg / 75).
+/// Solves one length factor per muscle group and side so that all simulated tests meet the measured ones: bounded
+/// least squares (0.6-1.4), weights 1 / measurement SD, a weak pull to 1 so that untested groups stay. What cannot be
+/// met together remains as residual, test by test. Thresholds scale with body mass (mass_kg / 75).
 ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ExamProtocol& protocol, double mass_kg,
                   const Job& job = {});
 

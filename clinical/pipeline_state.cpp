@@ -4,7 +4,7 @@
 #include "clinical/physical_exam_json.h"
 #include "clinical/pipeline.h"
 #include "core/file.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 #include "imaging/biplanar_rig_json.h"
 
 namespace sinew {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clinical/parallel_rows.h"
-#include "clinical/random_source.h"
+#include "core/parallel_rows.h"
+#include "core/random_source.h"
 
 namespace sinew {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "clinical/norms.h"
 #include "clinical/report.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 
 namespace sinew {
 

@@ -4,7 +4,7 @@
 #include "clinical/case_io.h"
 #include "clinical/phantom_calibration.h"
 #include "clinical/stage_runs.h"
-#include "core/skeleton/landmark_protocol.h"
+#include "core/skeleton/fit/landmark_protocol.h"
 #include "core/text.h"
 #include "imaging/rig_from_dicom.h"
 

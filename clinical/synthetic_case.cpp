@@ -7,7 +7,7 @@
 #include "clinical/synthetic_exam.h"
 #include "clinical/synthetic_patient.h"
 #include "core/file.h"
-#include "core/skeleton/bone_field.h"
+#include "core/skeleton/shape/bone_field.h"
 
 namespace sinew {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "clinical/random_source.h"
+#include "core/random_source.h"
 
 namespace sinew {
 namespace {

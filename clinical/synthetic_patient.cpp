@@ -6,8 +6,8 @@
 
 #include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
-#include "core/skeleton/landmark_protocol.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+#include "core/skeleton/shape/population.h"
 
 namespace sinew {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "clinical/random_source.h"
-#include "core/skeleton/fit_skeleton.h"
+#include "core/random_source.h"
+#include "core/skeleton/fit/fit_skeleton.h"
 #include "core/skeleton/kinematics.h"
-#include "core/skeleton/shape.h"
+#include "core/skeleton/shape/shape.h"
 #include "core/skeleton/skeleton.h"
 #include "imaging/biplanar_rig.h"
 #include "imaging/sighting.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "clinical/random_source.h"
 #include "core/angle.h"
+#include "core/random_source.h"
 
 namespace sinew {
 namespace {

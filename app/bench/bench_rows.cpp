@@ -10,8 +10,8 @@
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
-#include "core/rom/rom_cells_internal.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_cells_internal.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 namespace {

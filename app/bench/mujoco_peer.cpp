@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/io/mjcf.h"
+#include "core/io/mjcf/mjcf.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

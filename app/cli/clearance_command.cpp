@@ -6,7 +6,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
 #include "core/model/bone_contacts.h"
-#include "core/rom/range_postures.h"
+#include "core/rom/poses/range_postures.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

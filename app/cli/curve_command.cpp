@@ -6,7 +6,7 @@
 #include "app/cli/svg_to_png.h"
 #include "core/file.h"
 #include "core/foreign/foreign_evaluate.h"
-#include "core/muscle/evaluate.h"
+#include "core/posture/evaluate.h"
 #include "core/text.h"
 
 namespace sinew {

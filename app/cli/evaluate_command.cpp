@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "core/foreign/foreign_evaluate.h"
-#include "core/muscle/controllability.h"
-#include "core/muscle/evaluate.h"
+#include "core/posture/controllability.h"
+#include "core/posture/evaluate.h"
 #include "core/skeleton/posture_file.h"
 #include "core/text.h"
 

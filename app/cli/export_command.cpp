@@ -7,9 +7,9 @@
 #include "core/foreign/foreign_from_model.h"
 #include "core/foreign/length_deviation.h"
 #include "core/geometry/mesh_io.h"
-#include "core/io/mjcf.h"
-#include "core/io/osim_reader.h"
-#include "core/io/osim_writer.h"
+#include "core/io/mjcf/mjcf.h"
+#include "core/io/osim/osim_reader.h"
+#include "core/io/osim/osim_writer.h"
 #include "core/muscle/muscle_path.h"
 
 namespace sinew {

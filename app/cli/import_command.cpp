@@ -3,7 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "core/foreign/foreign_json.h"
+#include "core/io/foreign/foreign_json.h"
 
 namespace sinew {
 namespace {

@@ -5,7 +5,7 @@
 #include "clinical/case_io.h"
 #include "clinical/physical_exam.h"
 #include "core/file.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 #include "imaging/radiograph.h"
 
 namespace sinew {

@@ -4,7 +4,7 @@
 #include "app/cli/text_table.h"
 #include "core/model/physical_scaling.h"
 #include "core/muscle/unit_selection.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 #include "core/text.h"
 
 namespace sinew {

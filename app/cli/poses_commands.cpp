@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "core/io/bvh_poses.h"
-#include "core/rom/pose_sampler.h"
+#include "core/io/motion/bvh_poses.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

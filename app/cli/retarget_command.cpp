@@ -8,7 +8,7 @@
 #include "app/cli/retarget_reference.h"
 #include "app/cli/text_table.h"
 #include "core/experiments/characters.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {
 namespace {

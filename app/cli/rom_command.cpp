@@ -4,7 +4,7 @@
 #include "app/cli/png_file.h"
 #include "app/cli/text_table.h"
 #include "app/scene/rom_sphere.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/text.h"
 

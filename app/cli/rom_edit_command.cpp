@@ -5,10 +5,10 @@
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
 #include "core/angle.h"
+#include "core/model/rom_preset.h"
+#include "core/rom/edit/rom_edit_json.h"
+#include "core/rom/maps/rom_limits.h"
 #include "core/rom/rom_edit_experiment.h"
-#include "core/rom/rom_edit_json.h"
-#include "core/rom/rom_limits.h"
-#include "core/rom/rom_preset.h"
 #include "core/text.h"
 
 namespace sinew {

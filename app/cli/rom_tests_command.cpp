@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "core/rom/rom_preset.h"
-#include "core/rom/rom_report.h"
+#include "core/model/rom_preset.h"
+#include "core/rom/tests/rom_report.h"
 
 namespace sinew {
 namespace {

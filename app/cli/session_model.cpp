@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "app/cli/session.h"
-#include "core/foreign/foreign_json.h"
+#include "core/io/foreign/foreign_json.h"
 
 namespace sinew {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clinical/case.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 
 namespace sinew {
 

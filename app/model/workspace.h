@@ -11,7 +11,7 @@
 #include "app/model/view_state.h"
 #include "clinical/norms.h"
 #include "core/retarget/retarget.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 
 namespace sinew {
 

@@ -8,7 +8,7 @@
 
 #include "app/scene/offscreen.h"
 #include "core/model/model.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 class vtkRenderer;
 

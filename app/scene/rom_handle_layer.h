@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 class vtkRenderer;
 

@@ -2,7 +2,7 @@
 #include <vtkActor.h>
 #include <vtkNew.h>
 
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 class vtkRenderer;
 

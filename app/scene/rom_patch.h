@@ -3,7 +3,7 @@
 #include <vtkSmartPointer.h>
 
 #include "app/scene/palette.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

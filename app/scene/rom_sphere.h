@@ -4,7 +4,7 @@
 
 #include "app/scene/model_scene.h"
 #include "app/scene/offscreen.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 class vtkRenderer;
 

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/muscle/load_musculature.h"
-#include "core/rom/fit_preset.h"
+#include "core/rom/poses/fit_preset.h"
 
 namespace {
 

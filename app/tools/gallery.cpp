@@ -9,9 +9,9 @@
 #include "app/scene/model_scene.h"
 #include "app/scene/rom_sphere.h"
 #include "core/model/physical_scaling.h"
-#include "core/muscle/evaluate.h"
+#include "core/posture/evaluate.h"
 #include "core/retarget/retarget.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

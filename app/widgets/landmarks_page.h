@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/widgets/stage_page.h"
-#include "core/skeleton/landmark_protocol.h"
+#include "core/skeleton/fit/landmark_protocol.h"
 
 class QLabel;
 class QLineEdit;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rom/pose_sampler.h"
-#include "core/rom/validity.h"
+#include "core/posture/validity.h"
+#include "core/rom/poses/pose_sampler.h"
 
 namespace sinew {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/job.h"
 #include "core/retarget/retarget.h"
-#include "core/skeleton/body_description.h"
+#include "core/skeleton/shape/body_description.h"
 
 namespace sinew {
 

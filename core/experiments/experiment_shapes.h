@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/skeleton/shape.h"
+#include "core/skeleton/shape/shape.h"
 
 namespace sinew {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/experiments/characters.h"
-#include "core/retarget/ratio_force_internal.h"
+#include "core/retarget/peaks/ratio_force_internal.h"
 
 namespace sinew {
 

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/retarget/peak_reach.h"
+#include "core/retarget/peaks/peak_reach.h"
 #include "core/retarget/retarget.h"
 
 namespace sinew {

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "core/muscle/evaluate.h"
 #include "core/muscle/unit_selection.h"
+#include "core/posture/evaluate.h"
 
 namespace sinew {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/experiments/popliteal.h"
 
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 
 namespace sinew {
 

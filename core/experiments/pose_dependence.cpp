@@ -1,6 +1,6 @@
 #include "core/experiments/pose_dependence.h"
 
-#include "core/rom/validity.h"
+#include "core/posture/validity.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/model/model.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

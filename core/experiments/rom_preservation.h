@@ -4,7 +4,7 @@
 
 #include "core/job.h"
 #include "core/retarget/retarget.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/foreign/foreign_kinematics.h"
-#include "core/muscle/evaluate.h"
+#include "core/posture/evaluate.h"
 
 namespace sinew {
 

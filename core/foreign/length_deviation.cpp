@@ -5,8 +5,8 @@
 
 #include "core/foreign/foreign_from_model.h"
 #include "core/muscle/muscle_path.h"
-#include "core/rom/pose_sampler.h"
-#include "core/rom/range_postures.h"
+#include "core/rom/poses/pose_sampler.h"
+#include "core/rom/poses/range_postures.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

@@ -2,7 +2,7 @@
 #include "core/model/deformed_bones_internal.h"
 #include "core/model/model.h"
 #include "core/muscle/muscle_path.h"
-#include "core/skeleton/bone_field.h"
+#include "core/skeleton/shape/bone_field.h"
 
 namespace sinew {
 

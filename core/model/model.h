@@ -9,9 +9,9 @@
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/muscle/musculature.h"
-#include "core/skeleton/body_description.h"
 #include "core/skeleton/kinematics.h"
-#include "core/skeleton/shape.h"
+#include "core/skeleton/shape/body_description.h"
+#include "core/skeleton/shape/shape.h"
 #include "core/skeleton/skeleton.h"
 
 namespace sinew {

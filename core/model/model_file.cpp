@@ -7,7 +7,7 @@
 #include "core/model/model.h"
 #include "core/model/musculature_json.h"
 #include "core/model/skeleton_json.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/unit_selection.h"
-#include "core/skeleton/deformed_inertia.h"
-#include "core/skeleton/field_derivatives.h"
+#include "core/skeleton/shape/deformed_inertia.h"
+#include "core/skeleton/shape/field_derivatives.h"
 
 namespace sinew {
 namespace {

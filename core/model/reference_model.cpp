@@ -1,7 +1,7 @@
 #include "core/model/bone_meshes.h"
 #include "core/model/model.h"
+#include "core/model/rom_preset.h"
 #include "core/muscle/load_musculature.h"
-#include "core/rom/rom_preset.h"
 
 namespace sinew {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/model/physical_scaling.h"
-#include "core/muscle/muscle_role.h"
-#include "core/rom/pose_sampler.h"
+#include "core/posture/muscle_role.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

@@ -8,12 +8,12 @@
 
 #include "core/job.h"
 #include "core/model/model.h"
-#include "core/retarget/maximal_lengths.h"
-#include "core/retarget/peak_torque.h"
-#include "core/retarget/range_samples.h"
-#include "core/retarget/routing.h"
-#include "core/retarget/routing_reference.h"
-#include "core/rom/pose_set.h"
+#include "core/retarget/lengths/maximal_lengths.h"
+#include "core/retarget/peaks/peak_torque.h"
+#include "core/retarget/prepared/range_samples.h"
+#include "core/retarget/prepared/routing_reference.h"
+#include "core/retarget/routing/routing.h"
+#include "core/rom/poses/pose_set.h"
 #include "core/skeleton/joint_motion.h"
 
 namespace sinew {

@@ -1,7 +1,7 @@
 #include "core/rom/rom_edit_experiment.h"
 
 #include "core/angle.h"
-#include "core/rom/pose_sampler.h"
+#include "core/rom/poses/pose_sampler.h"
 
 namespace sinew {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "core/rom/rom_edit_solve.h"
+#include "core/rom/edit/rom_edit_solve.h"
 
 namespace sinew {
 

@@ -13,7 +13,7 @@
 #include "app/model/retarget/rom_handles.h"
 #include "app/model/retarget/shape_form.h"
 #include "core/angle.h"
-#include "core/rom/pose_sampler.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "gui_support.h"
 #include "tests/support/plain_model.h"
 #include "tests/support/temporary_folder.h"

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/skeleton/landmark_protocol.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+#include "core/skeleton/shape/population.h"
 #include "tests/support/synthetic_views.h"
 
 namespace sinew {

@@ -1,4 +1,4 @@
-#include "clinical/isosurface.h"
+#include "core/geometry/isosurface.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "core/muscle/hill.h"
 #include "core/muscle/load_musculature.h"
 #include "core/muscle/muscle_path.h"
-#include "core/rom/exam_sweep.h"
+#include "core/rom/tests/exam_sweep.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "clinical/synthetic_rig.h"
-#include "core/skeleton/bone_field.h"
 #include "core/skeleton/clinical_angles.h"
-#include "core/skeleton/landmark_protocol.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+#include "core/skeleton/shape/bone_field.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

@@ -1,4 +1,4 @@
-#include "core/skeleton/body_description.h"
+#include "core/skeleton/shape/body_description.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/skeleton/bone_field.h"
+#include "core/skeleton/shape/bone_field.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include "core/angle.h"
 #include "core/skeleton/clinical_angles.h"
-#include "core/skeleton/fit_skeleton.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/fit_skeleton.h"
+#include "core/skeleton/shape/population.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

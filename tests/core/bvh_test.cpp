@@ -1,4 +1,4 @@
-#include "core/io/bvh.h"
+#include "core/io/motion/bvh.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "core/io/bvh_poses.h"
+#include "core/io/motion/bvh_poses.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 

@@ -1,4 +1,4 @@
-#include "core/muscle/controllability.h"
+#include "core/posture/controllability.h"
 
 #include <gtest/gtest.h>
 

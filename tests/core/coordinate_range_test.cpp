@@ -1,4 +1,4 @@
-#include "core/rom/coordinate_range.h"
+#include "core/rom/maps/coordinate_range.h"
 #include "core/angle.h"
 
 #include <gtest/gtest.h>

@@ -13,8 +13,8 @@
 #include "core/experiments/popliteal.h"
 #include "core/experiments/pose_dependence.h"
 #include "core/experiments/rom_preservation.h"
-#include "core/muscle/evaluate.h"
-#include "core/rom/pose_sampler.h"
+#include "core/posture/evaluate.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/model/model.h"
-#include "core/skeleton/body_description.h"
-#include "core/skeleton/field_derivatives.h"
+#include "core/skeleton/shape/body_description.h"
+#include "core/skeleton/shape/field_derivatives.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

@@ -8,8 +8,8 @@
 #include "core/angle.h"
 #include "core/file.h"
 #include "core/skeleton/clinical_angles.h"
-#include "core/skeleton/landmark_protocol.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+#include "core/skeleton/shape/population.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/skeleton/fit_residuals.h"
+#include "core/skeleton/fit/fit_residuals.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/skeleton/fit_start_internal.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/fit_start_internal.h"
+#include "core/skeleton/shape/population.h"
 #include "tests/support/resources.h"
 #include "tests/support/synthetic_views.h"
 

@@ -1,4 +1,4 @@
-#include "core/skeleton/fit_skeleton.h"
+#include "core/skeleton/fit/fit_skeleton.h"
 #include "core/angle.h"
 
 #include <gmock/gmock.h>
@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "core/skeleton/clinical_angles.h"
-#include "core/skeleton/landmark_protocol.h"
-#include "core/skeleton/population.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+#include "core/skeleton/shape/population.h"
 #include "tests/support/resources.h"
 #include "tests/support/synthetic_views.h"
 

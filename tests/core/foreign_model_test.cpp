@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "core/foreign/foreign_evaluate.h"
-#include "core/foreign/foreign_json.h"
 #include "core/foreign/foreign_wrap.h"
-#include "core/io/osim_reader.h"
+#include "core/io/foreign/foreign_json.h"
+#include "core/io/osim/osim_reader.h"
 #include "tests/support/osim_text.h"
 
 namespace sinew {

@@ -1,4 +1,4 @@
-#include "core/rom/length_estimation.h"
+#include "core/rom/poses/length_estimation.h"
 
 #include <gmock/gmock.h>
 

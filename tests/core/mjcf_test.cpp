@@ -1,4 +1,4 @@
-#include "core/io/mjcf.h"
+#include "core/io/mjcf/mjcf.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "core/file.h"
 #include "core/muscle/muscle_path.h"
-#include "core/skeleton/bone_field.h"
+#include "core/skeleton/shape/bone_field.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "core/muscle/evaluate.h"
+#include "core/posture/evaluate.h"
 
 #include <gmock/gmock.h>
 

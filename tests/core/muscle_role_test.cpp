@@ -1,4 +1,4 @@
-#include "core/muscle/muscle_role.h"
+#include "core/posture/muscle_role.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 
 #include "core/foreign/foreign_from_model.h"
 #include "core/foreign/length_deviation.h"
-#include "core/io/osim_reader.h"
-#include "core/io/osim_writer.h"
+#include "core/io/osim/osim_reader.h"
+#include "core/io/osim/osim_writer.h"
 #include "core/muscle/muscle_path.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"

@@ -1,4 +1,4 @@
-#include "core/io/osim_reader.h"
+#include "core/io/osim/osim_reader.h"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/model/bone_contacts.h"
-#include "core/rom/range_postures.h"
+#include "core/rom/poses/range_postures.h"
 #include "tests/support/plain_model.h"
 
 namespace sinew {

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "core/muscle/unit_selection.h"
-#include "core/skeleton/deformed_inertia.h"
+#include "core/skeleton/shape/deformed_inertia.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/rom/pose_set.h"
+#include "core/rom/poses/pose_set.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <random>
 
 #include "core/file.h"
-#include "core/rom/pose_sampler.h"
-#include "core/rom/validity.h"
+#include "core/posture/validity.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/retarget/length_curve.h"
+#include "core/retarget/prepared/length_curve.h"
 
 namespace sinew {
 namespace {

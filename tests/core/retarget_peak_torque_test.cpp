@@ -5,11 +5,11 @@
 #include <random>
 
 #include "core/muscle/hill.h"
-#include "core/retarget/peak_condition_internal.h"
-#include "core/retarget/peak_reach.h"
-#include "core/retarget/peak_rows_internal.h"
-#include "core/retarget/peak_torque.h"
-#include "core/retarget/ratio_force_internal.h"
+#include "core/retarget/peaks/peak_condition_internal.h"
+#include "core/retarget/peaks/peak_reach.h"
+#include "core/retarget/peaks/peak_rows_internal.h"
+#include "core/retarget/peaks/peak_torque.h"
+#include "core/retarget/peaks/ratio_force_internal.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

@@ -4,8 +4,8 @@
 
 #include "core/experiments/experiment_shapes.h"
 #include "core/muscle/hill.h"
-#include "core/retarget/range_fit.h"
-#include "core/rom/rom_map.h"
+#include "core/retarget/lengths/range_fit.h"
+#include "core/rom/maps/rom_map.h"
 #include "tests/support/retarget_reference.h"
 
 namespace sinew {

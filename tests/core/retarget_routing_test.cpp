@@ -5,7 +5,7 @@
 #include "core/angle.h"
 #include "core/experiments/experiment_shapes.h"
 #include "core/muscle/muscle_path.h"
-#include "core/retarget/unit_problem_internal.h"
+#include "core/retarget/routing/unit_problem_internal.h"
 #include "tests/support/retarget_reference.h"
 
 namespace sinew {

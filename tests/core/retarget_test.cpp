@@ -8,7 +8,7 @@
 
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
-#include "core/skeleton/body_description.h"
+#include "core/skeleton/shape/body_description.h"
 #include "tests/support/retarget_reference.h"
 
 namespace sinew {

@@ -4,7 +4,7 @@
 #include "core/experiments/experiment_shapes.h"
 #include "core/muscle/moment_references.h"
 #include "core/retarget/retarget.h"
-#include "core/rom/pose_sampler.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

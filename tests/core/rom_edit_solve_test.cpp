@@ -1,4 +1,4 @@
-#include "core/rom/rom_edit_solve.h"
+#include "core/rom/edit/rom_edit_solve.h"
 #include "core/angle.h"
 
 #include <gtest/gtest.h>
@@ -7,13 +7,13 @@
 
 #include "core/error.h"
 #include "core/muscle/hill.h"
-#include "core/muscle/muscle_role.h"
-#include "core/rom/pose_sampler.h"
-#include "core/rom/rom_cells_internal.h"
+#include "core/posture/muscle_role.h"
+#include "core/rom/edit/rom_edit_target.h"
+#include "core/rom/edit/threshold_fit_internal.h"
+#include "core/rom/maps/rom_cells_internal.h"
+#include "core/rom/maps/rom_limits.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/rom/rom_edit_experiment.h"
-#include "core/rom/rom_edit_target.h"
-#include "core/rom/rom_limits.h"
-#include "core/rom/threshold_fit_internal.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 

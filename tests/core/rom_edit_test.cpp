@@ -1,14 +1,14 @@
-#include "core/rom/rom_edit.h"
+#include "core/rom/edit/rom_edit.h"
 #include "core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/rom/pose_sampler.h"
-#include "core/rom/rom_edit_json.h"
-#include "core/rom/rom_edit_target.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/edit/rom_edit_json.h"
+#include "core/rom/edit/rom_edit_target.h"
+#include "core/rom/maps/rom_map.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/plain_model.h"
 #include "tests/support/temporary_folder.h"

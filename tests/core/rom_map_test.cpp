@@ -1,11 +1,11 @@
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "core/error.h"
-#include "core/rom/rom_cells_internal.h"
+#include "core/rom/maps/rom_cells_internal.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 

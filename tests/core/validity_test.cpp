@@ -1,12 +1,12 @@
-#include "core/rom/validity.h"
+#include "core/posture/validity.h"
 
 #include <gmock/gmock.h>
 
 #include "core/model/model.h"
+#include "core/model/rom_preset.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/load_musculature.h"
 #include "core/muscle/muscle_path.h"
-#include "core/rom/rom_preset.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 

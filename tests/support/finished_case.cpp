@@ -7,7 +7,7 @@
 #include "clinical/synthetic_patient.h"
 #include "clinical/synthetic_rig.h"
 #include "core/file.h"
-#include "core/rom/exam_test.h"
+#include "core/rom/tests/exam_test.h"
 #include "imaging/radiograph.h"
 #include "imaging/triangulate.h"
 #include "tests/support/resources.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/skeleton/bone_field.h"
-#include "core/skeleton/fit_skeleton.h"
+#include "core/skeleton/fit/fit_skeleton.h"
 #include "core/skeleton/kinematics.h"
+#include "core/skeleton/shape/bone_field.h"
 
 namespace sinew::test {
 

@@ -2,8 +2,8 @@
 #include <random>
 #include <vector>
 
-#include "core/muscle/evaluate.h"
-#include "core/rom/pose_sampler.h"
+#include "core/posture/evaluate.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"
 

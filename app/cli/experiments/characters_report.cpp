@@ -7,9 +7,9 @@
 #include "app/scene/model_scene.h"
 #include "core/file.h"
 #include "core/foreign/foreign_from_model.h"
-#include "core/io/mjcf.h"
-#include "core/io/osim_writer.h"
-#include "core/skeleton/shape_json.h"
+#include "core/io/mjcf/mjcf.h"
+#include "core/io/osim/osim_writer.h"
+#include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/muscle/hill.h"
-#include "core/muscle/muscle_role.h"
-#include "core/rom/pose_sampler.h"
+#include "core/posture/muscle_role.h"
+#include "core/rom/poses/pose_sampler.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/mirrored_posture.h"
 

@@ -9,8 +9,8 @@
 
 #include "app/model/explorer/latest_job.h"
 #include "core/model/model.h"
-#include "core/muscle/evaluate.h"
-#include "core/rom/coordinate_range.h"
+#include "core/posture/evaluate.h"
+#include "core/rom/maps/coordinate_range.h"
 #include "core/skeleton/joint_motion.h"
 #include "core/skeleton/posture_file.h"
 

@@ -6,7 +6,7 @@
 #include "core/angle.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
-#include "core/muscle/muscle_role.h"
+#include "core/posture/muscle_role.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/motion_words.h"
 #include "core/text.h"

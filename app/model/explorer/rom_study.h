@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/model/explorer/latest_job.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

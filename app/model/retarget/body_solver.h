@@ -10,7 +10,7 @@
 #include "app/model/retarget/muscle_change.h"
 #include "app/model/retarget/retarget_design.h"
 #include "core/retarget/retarget.h"
-#include "core/rom/rom_edit_solve.h"
+#include "core/rom/edit/rom_edit_solve.h"
 
 namespace sinew {
 

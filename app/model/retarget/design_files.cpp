@@ -3,10 +3,10 @@
 #include "core/file.h"
 #include "core/foreign/foreign_from_model.h"
 #include "core/foreign/length_deviation.h"
-#include "core/io/mjcf.h"
-#include "core/io/osim_reader.h"
-#include "core/io/osim_writer.h"
-#include "core/rom/rom_edit_json.h"
+#include "core/io/mjcf/mjcf.h"
+#include "core/io/osim/osim_reader.h"
+#include "core/io/osim/osim_writer.h"
+#include "core/rom/edit/rom_edit_json.h"
 
 namespace sinew {
 

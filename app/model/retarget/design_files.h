@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/model/model.h"
-#include "core/rom/rom_edit.h"
+#include "core/rom/edit/rom_edit.h"
 
 namespace sinew {
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "core/skeleton/shape_json.h"
+#include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {
 namespace {

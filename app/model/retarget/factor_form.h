@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/muscle/musculature.h"
-#include "core/skeleton/body_description.h"
+#include "core/skeleton/shape/body_description.h"
 
 namespace sinew {
 

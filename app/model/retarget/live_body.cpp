@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/muscle/muscle_path.h"
-#include "core/skeleton/bone_field.h"
+#include "core/skeleton/shape/bone_field.h"
 
 namespace sinew {
 namespace {

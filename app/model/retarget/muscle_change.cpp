@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/muscle/muscle_path.h"
-#include "core/retarget/reversals.h"
+#include "core/retarget/prepared/reversals.h"
 
 namespace sinew {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "core/rom/rom_edit.h"
-#include "core/skeleton/body_description.h"
+#include "core/rom/edit/rom_edit.h"
+#include "core/skeleton/shape/body_description.h"
 #include "core/undo_history.h"
 
 namespace sinew {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/rom/rom_edit_target.h"
+#include "core/rom/edit/rom_edit_target.h"
 
 namespace sinew {
 namespace {

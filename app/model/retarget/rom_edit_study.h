@@ -8,7 +8,7 @@
 #include "app/model/explorer/latest_job.h"
 #include "app/model/retarget/body_solver.h"
 #include "app/model/retarget/rom_handles.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rom/rom_map.h"
-#include "core/rom/rom_transform.h"
+#include "core/rom/edit/rom_transform.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/skeleton/shape.h"
+#include "core/skeleton/shape/shape.h"
 
 namespace sinew {
 

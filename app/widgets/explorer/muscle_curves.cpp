@@ -13,7 +13,7 @@
 #include "app/widgets/theme.h"
 #include "core/angle.h"
 #include "core/muscle/hill.h"
-#include "core/muscle/muscle_role.h"
+#include "core/posture/muscle_role.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {

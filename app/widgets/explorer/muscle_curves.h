@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <string>
 
-#include "core/muscle/evaluate.h"
+#include "core/posture/evaluate.h"
 
 class QComboBox;
 class QLabel;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/scene/rom_sphere.h"
-#include "core/rom/rom_map.h"
+#include "core/rom/maps/rom_map.h"
 
 namespace sinew {
 

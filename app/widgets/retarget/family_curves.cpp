@@ -11,8 +11,8 @@
 #include "app/model/stage_text.h"
 #include "app/widgets/curve_plot.h"
 #include "app/widgets/theme.h"
-#include "core/muscle/evaluate.h"
-#include "core/muscle/muscle_role.h"
+#include "core/posture/evaluate.h"
+#include "core/posture/muscle_role.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {

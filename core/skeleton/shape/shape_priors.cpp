@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include "core/angle.h"
+#include "core/file.h"
+#include "core/skeleton/shape/population.h"
+#include "core/strict_json.h"
+#include "core/text.h"
+
+namespace sinew {
+namespace {
+
+/// "femur.torsion" -> "femur_r.torsion", "femur_l.torsion"; names of the midline stay.
+std::vector<std::string> parametersOf(const std::string& name) {
+  const auto& known = shapeParameterNames();
+  if (name == kSizePrior || std::ranges::count(known, name)) return {name};
+  const auto dot = std::min(name.find('.'), name.size());
+  std::vector<std::string> sides;
+  for (const char* side : {"_r", "_l"}) {
+    const std::string sided = name.substr(0, dot) + side + name.substr(dot);
+    if (std::ranges::count(known, sided)) sides.push_back(sided);
+  }
+  return sides;
+}
+
+void addPriors(const JsonReader& json, std::vector<ShapePrior>& priors) {
+  json.allowOnly({"parameter", "unit", "mean", "sd", "verified", "source"});
+  const std::string name = json["parameter"].text();
+  const auto parameters = parametersOf(name);
+  if (parameters.empty()) json["parameter"].fail("a shape parameter" + didYouMean(name, shapeParameterNames()), name);
+  const bool angle = json["unit"].oneOf({"ratio", "deg"}) == "deg";
+  if (angle != isShapeAngle(parameters.front()))
+    json["unit"].fail(angle ? "ratio, the unit of " + name : "deg, the unit of " + name);
+  const double unit = angle ? kRadPerDeg : 1;
+  const double mean = unit * (angle ? json["mean"].numberIn(-90, 90) : json["mean"].numberIn(0.2, 4));
+  const double sd = unit * json["sd"].positive();
+  const bool verified = json["verified"].boolean();
+  for (const auto& parameter : parameters) {
+    if (std::ranges::count(priors, parameter, &ShapePrior::parameter))
+      json["parameter"].fail("one prior a parameter", name + " twice");
+    priors.push_back({parameter, mean, sd, json["source"].text() + (verified ? "" : " (not verified)")});
+  }
+}
+
+}  // namespace
+
+bool isShapeAngle(const std::string& parameter) {
+  return std::ranges::any_of(std::initializer_list<std::string_view>{".torsion", ".neck_shaft", ".varus", ".bend"},
+                             [&](std::string_view end) { return parameter.ends_with(end); });
+}
+
+std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_dir) {
+  const auto file = resource_dir / "clinical" / "shape_priors.json";
+  const Json document = parseJson(readFile(file), file.string());
+  const JsonReader root{document, file.string()};
+  root.expectFormat("sinew.shape_priors", 1);
+  root.allowOnly({"format", "version", "about", "priors"});
+  std::vector<ShapePrior> priors;
+  for (const auto& entry : root["priors"].items()) addPriors(entry, priors);
+  return priors;
+}
+
+}  // namespace sinew
