@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include "clinical/xray_attenuation.h"
 #include "core/geometry/isosurface.h"
+#include "imaging/xray/xray_attenuation.h"
 
 namespace sinew {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "clinical/path_length.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/skeleton/skeleton.h"
+#include "imaging/xray/path_length.h"
 
 namespace sinew {
 

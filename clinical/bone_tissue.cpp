@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "clinical/xray_attenuation.h"
+#include "imaging/xray/xray_attenuation.h"
 
 namespace sinew {
 namespace {

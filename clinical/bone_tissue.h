@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "clinical/path_length.h"
 #include "core/model/model.h"
+#include "imaging/xray/path_length.h"
 
 namespace sinew {
 

@@ -9,9 +9,9 @@
 #include "clinical/physical_exam.h"
 #include "core/job.h"
 #include "core/skeleton/fit/fit_skeleton.h"
-#include "imaging/biplanar_rig.h"
-#include "imaging/sighting.h"
-#include "imaging/triangulate.h"
+#include "imaging/rig/biplanar_rig.h"
+#include "imaging/rig/sighting.h"
+#include "imaging/rig/triangulate.h"
 
 namespace sinew {
 

@@ -7,7 +7,7 @@
 #include "clinical/physical_exam_json.h"
 #include "core/file.h"
 #include "core/strict_json.h"
-#include "imaging/biplanar_rig_json.h"
+#include "imaging/rig/biplanar_rig_json.h"
 
 namespace sinew {
 namespace {

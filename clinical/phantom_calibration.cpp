@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/rig_from_dicom.h"
 
 namespace sinew {
 

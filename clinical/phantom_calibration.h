@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/job.h"
-#include "imaging/calibrate.h"
+#include "imaging/calibration/calibrate.h"
 
 namespace sinew {
 

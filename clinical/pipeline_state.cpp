@@ -5,7 +5,7 @@
 #include "clinical/pipeline.h"
 #include "core/file.h"
 #include "core/skeleton/shape/shape_json.h"
-#include "imaging/biplanar_rig_json.h"
+#include "imaging/rig/biplanar_rig_json.h"
 
 namespace sinew {
 namespace {

@@ -8,7 +8,7 @@
 #include "clinical/pipeline.h"
 #include "clinical/report_tables.h"
 #include "core/version.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 namespace {

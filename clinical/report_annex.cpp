@@ -5,7 +5,7 @@
 #include "clinical/case_io.h"
 #include "clinical/report_tables.h"
 #include "clinical/synthetic_case.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 namespace {

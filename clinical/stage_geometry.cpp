@@ -6,7 +6,7 @@
 #include "clinical/stage_runs.h"
 #include "core/skeleton/fit/landmark_protocol.h"
 #include "core/text.h"
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/rig_from_dicom.h"
 
 namespace sinew {
 namespace {

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/model/model.h"
-#include "imaging/sighting.h"
+#include "imaging/rig/sighting.h"
 
 namespace sinew {
 

@@ -8,7 +8,7 @@
 #include "core/job.h"
 #include "core/model/model.h"
 #include "core/retarget/retarget.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 

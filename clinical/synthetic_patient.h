@@ -6,8 +6,8 @@
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/shape.h"
 #include "core/skeleton/skeleton.h"
-#include "imaging/biplanar_rig.h"
-#include "imaging/sighting.h"
+#include "imaging/rig/biplanar_rig.h"
+#include "imaging/rig/sighting.h"
 
 namespace sinew {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "clinical/synthetic_case.h"
-#include "clinical/xray_attenuation.h"
 #include "clinical/xray_render.h"
 #include "core/file.h"
+#include "imaging/xray/xray_attenuation.h"
 
 namespace sinew {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "imaging/biplanar_rig.h"
-#include "imaging/calibration_object.h"
-#include "imaging/radiograph.h"
+#include "imaging/calibration/calibration_object.h"
+#include "imaging/radiograph/radiograph.h"
+#include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
 

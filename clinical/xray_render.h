@@ -1,12 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "clinical/exposure.h"
-#include "clinical/path_length.h"
 #include "core/geometry/view.h"
 #include "core/job.h"
 #include "core/model/model.h"
 #include "core/skeleton/kinematics.h"
+#include "imaging/xray/exposure.h"
+#include "imaging/xray/path_length.h"
 
 namespace sinew {
 

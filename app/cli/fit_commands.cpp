@@ -5,7 +5,7 @@
 #include "app/cli/text_table.h"
 #include "clinical/case_results_json.h"
 #include "clinical/physical_exam.h"
-#include "imaging/biplanar_rig.h"
+#include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
 namespace {

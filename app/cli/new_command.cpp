@@ -6,7 +6,7 @@
 #include "clinical/physical_exam.h"
 #include "core/file.h"
 #include "core/rom/tests/exam_test.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 namespace {

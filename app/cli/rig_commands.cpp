@@ -6,8 +6,8 @@
 #include "app/cli/text_table.h"
 #include "clinical/phantom_calibration.h"
 #include "core/text.h"
-#include "imaging/biplanar_rig.h"
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/biplanar_rig.h"
+#include "imaging/rig/rig_from_dicom.h"
 
 namespace sinew {
 namespace {

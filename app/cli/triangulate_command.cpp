@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "imaging/biplanar_rig.h"
-#include "imaging/triangulate.h"
+#include "imaging/rig/biplanar_rig.h"
+#include "imaging/rig/triangulate.h"
 
 namespace sinew {
 namespace {

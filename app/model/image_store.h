@@ -6,7 +6,7 @@
 #include <string>
 
 #include "clinical/case.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 

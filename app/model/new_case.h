@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "clinical/case.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 

@@ -2,7 +2,7 @@
 #include <QString>
 
 #include "app/model/case_document.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 

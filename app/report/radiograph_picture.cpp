@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clinical/case_io.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 namespace {

@@ -20,7 +20,7 @@
 #include "app/widgets/theme.h"
 #include "clinical/case_io.h"
 #include "core/file.h"
-#include "imaging/calibration_object.h"
+#include "imaging/calibration/calibration_object.h"
 
 namespace sinew {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/model/view_state.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 

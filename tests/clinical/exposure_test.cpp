@@ -1,4 +1,4 @@
-#include "clinical/exposure.h"
+#include "imaging/xray/exposure.h"
 
 #include <gtest/gtest.h>
 

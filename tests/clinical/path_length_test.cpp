@@ -1,4 +1,4 @@
-#include "clinical/path_length.h"
+#include "imaging/xray/path_length.h"
 
 #include <gtest/gtest.h>
 

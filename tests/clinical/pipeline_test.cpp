@@ -9,7 +9,7 @@
 #include "clinical/synthetic_case.h"
 #include "core/file.h"
 #include "core/text.h"
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 #include "tests/support/resources.h"
 #include "tests/support/retarget_reference.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 
 #include "clinical/case_io.h"
 #include "core/file.h"
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/rig_from_dicom.h"
 #include "tests/support/resources.h"
 #include "tests/support/retarget_reference.h"
 #include "tests/support/temporary_folder.h"

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "clinical/synthetic_case.h"
-#include "imaging/calibrate.h"
-#include "imaging/detect_beads.h"
-#include "imaging/rig_from_dicom.h"
-#include "imaging/triangulate.h"
+#include "imaging/calibration/calibrate.h"
+#include "imaging/calibration/detect_beads.h"
+#include "imaging/rig/rig_from_dicom.h"
+#include "imaging/rig/triangulate.h"
 
 namespace sinew {
 namespace {

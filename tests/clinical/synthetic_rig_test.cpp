@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/rig_from_dicom.h"
 
 namespace sinew {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "clinical/body_envelope.h"
 #include "clinical/bone_tissue.h"
-#include "clinical/xray_attenuation.h"
 #include "core/skeleton/kinematics.h"
+#include "imaging/xray/xray_attenuation.h"
 #include "tests/clinical/solids.h"
 #include "tests/support/resources.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/geometry/view.h"
-#include "imaging/calibration_object.h"
-#include "imaging/radiograph.h"
+#include "imaging/calibration/calibration_object.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew::test {
 

@@ -1,4 +1,4 @@
-#include "imaging/biplanar_rig_json.h"
+#include "imaging/rig/biplanar_rig_json.h"
 
 #include <gmock/gmock.h>
 

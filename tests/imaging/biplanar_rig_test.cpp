@@ -1,4 +1,4 @@
-#include "imaging/biplanar_rig.h"
+#include "imaging/rig/biplanar_rig.h"
 
 #include <gmock/gmock.h>
 

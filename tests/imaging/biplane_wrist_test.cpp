@@ -6,7 +6,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
-#include "imaging/triangulate.h"
+#include "imaging/rig/triangulate.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

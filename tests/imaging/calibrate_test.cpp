@@ -1,4 +1,4 @@
-#include "imaging/calibrate.h"
+#include "imaging/calibration/calibrate.h"
 
 #include <ceres/gradient_checker.h>
 #include <gmock/gmock.h>
@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "imaging/bead_residuals.h"
-#include "imaging/calibration_internal.h"
-#include "imaging/triangulate.h"
+#include "imaging/calibration/bead_residuals.h"
+#include "imaging/calibration/calibration_internal.h"
+#include "imaging/rig/triangulate.h"
 #include "tests/imaging/bead_image.h"
 #include "tests/imaging/rigs.h"
 

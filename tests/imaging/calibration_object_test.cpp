@@ -1,10 +1,10 @@
-#include "imaging/calibration_object.h"
+#include "imaging/calibration/calibration_object.h"
 
 #include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "imaging/calibration_internal.h"
+#include "imaging/calibration/calibration_internal.h"
 #include "tests/imaging/rigs.h"
 #include "tests/support/temporary_folder.h"
 

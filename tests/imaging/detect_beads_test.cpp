@@ -1,4 +1,4 @@
-#include "imaging/detect_beads.h"
+#include "imaging/calibration/detect_beads.h"
 
 #include <gmock/gmock.h>
 

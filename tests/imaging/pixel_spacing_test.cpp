@@ -1,4 +1,4 @@
-#include "imaging/pixel_spacing.h"
+#include "imaging/radiograph/pixel_spacing.h"
 
 #include <gmock/gmock.h>
 

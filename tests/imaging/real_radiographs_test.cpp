@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
 

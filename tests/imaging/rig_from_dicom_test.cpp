@@ -1,10 +1,10 @@
-#include "imaging/rig_from_dicom.h"
+#include "imaging/rig/rig_from_dicom.h"
 
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
 
-#include "imaging/triangulate.h"
+#include "imaging/rig/triangulate.h"
 #include "tests/imaging/rigs.h"
 
 namespace sinew {

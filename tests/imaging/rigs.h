@@ -2,8 +2,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "imaging/biplanar_rig.h"
-#include "imaging/sighting.h"
+#include "imaging/rig/biplanar_rig.h"
+#include "imaging/rig/sighting.h"
 
 namespace sinew::test {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "imaging/radiograph.h"
+#include "imaging/radiograph/radiograph.h"
 
 namespace sinew::test {
 

@@ -1,4 +1,4 @@
-#include "imaging/triangulate.h"
+#include "imaging/rig/triangulate.h"
 
 #include <gmock/gmock.h>
 

@@ -8,8 +8,8 @@
 #include "clinical/synthetic_rig.h"
 #include "core/file.h"
 #include "core/rom/tests/exam_test.h"
-#include "imaging/radiograph.h"
-#include "imaging/triangulate.h"
+#include "imaging/radiograph/radiograph.h"
+#include "imaging/rig/triangulate.h"
 #include "tests/support/resources.h"
 
 namespace sinew::test {

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "core/strict_json.h"
+#include "imaging/rig/biplanar_rig.h"
+
+namespace sinew {
+
+/// "sinew.rig", version 1: what rig files hold and what a case embeds. Metres, pixels; NaN is null.
+Json rigToJson(const BiplanarRig& rig);
+/// @throws InputError for a member that is missing, unknown or of a wrong type, a matrix that is not
+/// orthonormal (a mirrored film, with determinant -1, is legal), a size,
+/// spacing or focal length that is not positive.
+BiplanarRig rigFromJson(const JsonReader& json);
+
+}  // namespace sinew

@@ -1,0 +1,238 @@
+#include "imaging/rig/rig_from_dicom.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+constexpr double kDegree_rad = 0.017453292519943295;
+constexpr double kMillimetre_m = 1e-3;
+constexpr const char* kWhere = "geometry from DICOM";
+
+const Eigen::Vector3d kAnterior{1, 0, 0}, kUp{0, 1, 0}, kRight{0, 0, 1};
+
+[[noreturn]] void refuse(int view, const std::string& field, const std::string& expected, const std::string& found) {
+  throw InputError{{std::string{kWhere} + ": image " + std::to_string(view + 1), field, expected, found}};
+}
+
+double needed(const std::optional<double>& value, int view, const std::string& name) {
+  if (!value) refuse(view, name, "a number of millimetres > 0", "nothing");
+  return *value;
+}
+
+/// The direction that a word of Patient Orientation names by its first letter; zero for others.
+Eigen::Vector3d directionOf(const std::string& word) {
+  switch (word.empty() ? ' ' : word[0]) {
+    case 'A':
+      return kAnterior;
+    case 'P':
+      return -kAnterior;
+    case 'R':
+      return kRight;
+    case 'L':
+      return -kRight;
+    case 'H':
+      return kUp;
+    case 'F':
+      return -kUp;
+    default:
+      return Eigen::Vector3d::Zero();
+  }
+}
+
+std::string rowWord(const RadiographTags& tags) {
+  return tags.patient_orientation.substr(0, tags.patient_orientation.find('\\'));
+}
+
+std::string columnWord(const RadiographTags& tags) {
+  const auto slash = tags.patient_orientation.find('\\');
+  return slash == std::string::npos ? std::string{} : tags.patient_orientation.substr(slash + 1);
+}
+
+/// Beam direction by the name of the view; zero if the name says nothing.
+Eigen::Vector3d beamOfViewPosition(const RadiographTags& tags, Warnings& warnings) {
+  const std::string& name = tags.view_position;
+  if (name == "AP") return -kAnterior;
+  if (name == "PA") return kAnterior;
+  if (name == "LL") return -kRight;
+  if (name == "RL") return kRight;
+  if (name == "LAT" || name == "LATERAL") {
+    warnings.push_back(
+        {"lateral_side_assumed",
+         "The lateral view does not say which side was at the detector; it is taken from the direction "
+         "the patient faces. Check the side marker."});
+    return directionOf(rowWord(tags)).dot(kAnterior) < 0 ? kRight : Eigen::Vector3d{-kRight};
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+Eigen::Vector3d beamOfAngles(double primary_deg, double secondary_deg) {
+  const double a = primary_deg * kDegree_rad, b = secondary_deg * kDegree_rad;
+  return std::cos(b) * (std::cos(a) * kAnterior - std::sin(a) * kRight) + std::sin(b) * kUp;
+}
+
+Eigen::Vector3d beamDirection(const RadiographTags& tags, bool both_have_angles, int view, Warnings& warnings) {
+  const Eigen::Vector3d named = beamOfViewPosition(tags, warnings);
+  if (both_have_angles) {
+    const Eigen::Vector3d turned =
+        beamOfAngles(*tags.positioner_primary_angle_deg, tags.positioner_secondary_angle_deg.value_or(0));
+    if (named.isZero() || named.dot(turned) > std::cos(30 * kDegree_rad)) return turned;
+    warnings.push_back({"positioner_angle_ignored", "View " + std::to_string(view + 1) +
+                                                        ": the positioner angles contradict View Position '" +
+                                                        tags.view_position + "' and are not used."});
+  }
+  if (named.isZero())
+    refuse(view, "View Position", "AP or PA for the first image, LL or RL for the second",
+           tags.view_position.empty() ? "nothing" : "'" + tags.view_position + "'");
+  return named;
+}
+
+/// Rows of R_CW: the axes of the image and the beam, expressed in W.
+Eigen::Matrix3d viewAxes(const RadiographTags& tags, const Eigen::Vector3d& z, int view, Warnings& warnings) {
+  const Eigen::Vector3d y = -(kUp - kUp.dot(z) * z).normalized();
+  Eigen::Vector3d x = y.cross(z);  // as seen from the source
+  const std::string column = columnWord(tags);
+  if (!column.empty() && directionOf(column).dot(y) < 0.5)
+    refuse(view, "Patient Orientation", "rows running towards the feet (F)", "'" + column + "'");
+
+  Eigen::Vector3d stated = directionOf(rowWord(tags));
+  if (stated.isZero()) {
+    stated = view == 0 ? Eigen::Vector3d{-kRight} : x;
+    warnings.push_back(
+        {"patient_orientation_assumed",
+         "View " + std::to_string(view + 1) + " does not state Patient Orientation; taken as " +
+             (view == 0 ? "the patient's left on the right of the image." : "seen from the X-ray source.") +
+             " Check the side marker."});
+  }
+  if (std::abs(stated.dot(x)) < 0.3)
+    refuse(view, "Patient Orientation", "columns running across the beam", "'" + rowWord(tags) + "'");
+  if (stated.dot(x) < 0) x = -x;  // stored mirrored: a left-handed view frame
+  Eigen::Matrix3d R_CW;
+  R_CW << x.transpose(), y.transpose(), z.transpose();
+  return R_CW;
+}
+
+bool isPatientPlane(PixelScaleSource source) {
+  return source == PixelScaleSource::Fiducial || source == PixelScaleSource::Geometry ||
+         source == PixelScaleSource::Declared;
+}
+
+SlotScan slotScan(const Radiograph& image, int view, Warnings& warnings) {
+  SlotScan s;
+  const double isocenter_mm =
+      needed(image.tags.distance_source_to_isocenter_mm, view, "Distance Source to Isocenter");
+  s.source_to_isocenter_m = isocenter_mm * kMillimetre_m;
+  if (image.spacing && isPatientPlane(image.spacing->source)) {
+    s.column_spacing_m = image.spacing->column_mm * kMillimetre_m;
+    s.row_spacing_m = image.spacing->row_mm * kMillimetre_m;
+  } else {
+    const double detector_mm =
+        needed(image.tags.distance_source_to_detector_mm, view, "Pixel Spacing, or Distance Source to Detector");
+    if (detector_mm < isocenter_mm)
+      refuse(view, "Distance Source to Detector", "no less than to the isocentre",
+             std::to_string(detector_mm) + " mm");
+    const double column_mm = needed(image.tags.imager_column_mm, view, "Pixel Spacing, or Imager Pixel Spacing");
+    s.column_spacing_m = column_mm * isocenter_mm / detector_mm * kMillimetre_m;
+    s.row_spacing_m = needed(image.tags.imager_row_mm, view, "Imager Pixel Spacing") * kMillimetre_m;
+    warnings.push_back(
+        {"slot_scan_spacing_from_detector", "View " + std::to_string(view + 1) +
+                                                ": the pixel size in the isocentre plane is computed from "
+                                                "the detector's; the file does not state it."});
+  }
+  s.u0_px = 0.5 * (image.width_px - 1);
+  s.v0_px = 0.5 * (image.height_px - 1);
+  return s;
+}
+
+void requireSameRows(const Radiograph& a, const Radiograph& b, const SlotScan& sa, const SlotScan& sb) {
+  if (a.height_px != b.height_px)
+    throw InputError{{kWhere, "Rows", "the same in both images of a slot scan",
+                      std::to_string(a.height_px) + " and " + std::to_string(b.height_px)}};
+  if (std::abs(sa.row_spacing_m - sb.row_spacing_m) > 1e-4 * sa.row_spacing_m)
+    throw InputError{{kWhere, "row spacing", "the same in both images of a slot scan",
+                      std::to_string(sa.row_spacing_m / kMillimetre_m) + " and " +
+                          std::to_string(sb.row_spacing_m / kMillimetre_m) + " mm"}};
+}
+
+/// Distance source - isocentre [m] and the pinhole of a flat detector placed as the tags say.
+std::pair<double, ConeBeam> nominalConeBeam(const Radiograph& image, int view) {
+  const RadiographTags& t = image.tags;
+  const double detector_mm = needed(t.distance_source_to_detector_mm, view, "Distance Source to Detector");
+  std::optional<double> patient_mm = t.distance_source_to_patient_mm;
+  if (!patient_mm && t.estimated_magnification) patient_mm = detector_mm / *t.estimated_magnification;
+  const double source_mm = needed(patient_mm, view, "Distance Source to Patient");
+  if (source_mm >= detector_mm)
+    refuse(view, "Distance Source to Patient", "less than to the detector", std::to_string(source_mm) + " mm");
+  ConeBeam c;
+  if (t.imager_column_mm && t.imager_row_mm) {
+    c.fx_px = detector_mm / *t.imager_column_mm;
+    c.fy_px = detector_mm / *t.imager_row_mm;
+  } else if (image.spacing && isPatientPlane(image.spacing->source)) {
+    c.fx_px = source_mm / image.spacing->column_mm;
+    c.fy_px = source_mm / image.spacing->row_mm;
+  } else {
+    refuse(view, "Imager Pixel Spacing", "a size > 0", "nothing");
+  }
+  c.cx_px = 0.5 * (image.width_px - 1);
+  c.cy_px = 0.5 * (image.height_px - 1);
+  return {source_mm * kMillimetre_m, c};
+}
+
+void requireOnePatient(const RadiographTags& a, const RadiographTags& b, Warnings& warnings) {
+  const auto differ = [](const std::string& x, const std::string& y) { return !x.empty() && !y.empty() && x != y; };
+  if (differ(a.patient_id, b.patient_id) || differ(a.patient_birth_date, b.patient_birth_date))
+    throw InputError{{kWhere, "patient", "the same in both images", "two different ones"}};
+  if (differ(a.study_instance_uid, b.study_instance_uid))
+    warnings.push_back({"different_study", "The two images are of different studies: was the posture the same?"});
+}
+
+}  // namespace
+
+BiplanarRig rigFromDicom(const Radiograph& frontal, const Radiograph& lateral) {
+  const std::array<const Radiograph*, 2> images{&frontal, &lateral};
+  BiplanarRig rig;
+  Warnings& warnings = rig.calibration.warnings;
+  requireOnePatient(frontal.tags, lateral.tags, warnings);
+  const bool angles =
+      frontal.tags.positioner_primary_angle_deg.has_value() && lateral.tags.positioner_primary_angle_deg.has_value();
+  const bool scan = frontal.tags.distance_source_to_isocenter_mm && lateral.tags.distance_source_to_isocenter_mm;
+
+  for (int i = 0; i < 2; ++i) {
+    const Radiograph& image = *images[std::size_t(i)];
+    View& view = rig.views[std::size_t(i)];
+    const Eigen::Vector3d beam = beamDirection(image.tags, angles, i, warnings);
+    const bool looks_frontal = std::abs(beam.dot(kAnterior)) > std::abs(beam.dot(kRight));
+    if (looks_frontal != (i == 0))
+      refuse(i, "view", i == 0 ? "a frontal one (AP or PA) first" : "a lateral one (LL or RL) second",
+             looks_frontal ? "a frontal one" : "a lateral one");
+    view.R_CW = viewAxes(image.tags, beam, i, warnings);
+    view.width_px = image.width_px;
+    view.height_px = image.height_px;
+    if (scan) {
+      view.projection = slotScan(image, i, warnings);
+    } else {
+      const auto [source_m, pinhole] = nominalConeBeam(image, i);
+      view.projection = pinhole;
+      view.p_CW = {0, 0, source_m};
+    }
+  }
+  if (scan) {
+    const auto& a = std::get<SlotScan>(rig.views[0].projection);
+    requireSameRows(frontal, lateral, a, std::get<SlotScan>(rig.views[1].projection));
+    if (frontal.tags.frame_of_reference_uid != lateral.tags.frame_of_reference_uid)
+      warnings.push_back({"different_frame_of_reference",
+                          "The two images do not share a frame of reference: were they scanned together?"});
+  } else {
+    warnings.push_back(
+        {"uncalibrated", "The geometry comes from nominal distances and angles alone: lengths are good to 3-5 %."});
+  }
+  if (std::abs(rig.views[0].R_CW.row(2).dot(rig.views[1].R_CW.row(2))) > std::cos(60 * kDegree_rad))
+    warnings.push_back({"views_not_orthogonal", "The two beams are less than 60 deg apart: depth is less certain."});
+  rig.patient_aligned = true;
+  rig.calibration.method = scan ? "dicom_slot_scan" : "dicom_nominal";
+  rig.calibration.id = geometryId(rig.views);
+  return rig;
+}
+
+}  // namespace sinew
