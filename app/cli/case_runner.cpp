@@ -3,9 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include "app/cli/text_table.h"
-#include "clinical/case_io.h"
-#include "clinical/pipeline.h"
-#include "clinical/synthetic_case.h"
+#include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/synthetic/synthetic_case.h"
 
 namespace sinew {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/cli/session.h"
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/strict_json.h"
 
 namespace sinew {

@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "clinical/case_results_json.h"
-#include "clinical/physical_exam.h"
+#include "clinical/case/case_results_json.h"
+#include "clinical/exam/physical_exam.h"
 #include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "clinical/case_io.h"
-#include "clinical/physical_exam.h"
+#include "clinical/case/case_io.h"
+#include "clinical/exam/physical_exam.h"
 #include "core/file.h"
 #include "core/rom/tests/exam_test.h"
 #include "imaging/radiograph/radiograph.h"

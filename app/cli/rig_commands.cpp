@@ -4,7 +4,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_table.h"
-#include "clinical/phantom_calibration.h"
+#include "clinical/pipeline/phantom_calibration.h"
 #include "core/text.h"
 #include "imaging/rig/biplanar_rig.h"
 #include "imaging/rig/rig_from_dicom.h"

@@ -2,9 +2,9 @@
 
 #include "app/cli/case_runner.h"
 #include "app/cli/commands.h"
-#include "clinical/case_io.h"
-#include "clinical/pipeline.h"
-#include "clinical/synthetic_case.h"
+#include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
 #include "core/text.h"
 

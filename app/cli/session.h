@@ -8,7 +8,7 @@
 #include "app/cli/exit_status.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/progress.h"
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/foreign/foreign_model.h"
 #include "core/model/model.h"
 #include "core/retarget/retarget.h"

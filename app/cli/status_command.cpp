@@ -3,8 +3,8 @@
 
 #include "app/cli/case_runner.h"
 #include "app/cli/commands.h"
-#include "clinical/case_io.h"
-#include "clinical/pipeline.h"
+#include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
 
 namespace sinew {
 namespace {

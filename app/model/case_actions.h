@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/rom/tests/exam_test.h"
 
 namespace sinew {

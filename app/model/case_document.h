@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "clinical/case.h"
-#include "clinical/pipeline.h"
+#include "clinical/case/case.h"
+#include "clinical/pipeline/pipeline.h"
 #include "core/undo_history.h"
 
 namespace sinew {

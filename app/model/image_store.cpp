@@ -1,6 +1,6 @@
 #include "app/model/image_store.h"
 
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 
 namespace sinew {
 

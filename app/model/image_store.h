@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {

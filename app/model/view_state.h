@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 
 namespace sinew {
 

@@ -1,6 +1,6 @@
 #include "app/model/workspace.h"
 
-#include "clinical/synthetic_case.h"
+#include "clinical/synthetic/synthetic_case.h"
 
 namespace sinew {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/model/job_runner.h"
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
-#include "clinical/norms.h"
+#include "clinical/report/norms.h"
 #include "core/retarget/retarget.h"
 #include "core/rom/tests/exam_test.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/report/ink.h"
-#include "clinical/report.h"
+#include "clinical/report/report.h"
 
 namespace sinew {
 

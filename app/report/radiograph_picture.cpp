@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "app/report/ink.h"
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/model/bone_contours.h"
 
 namespace sinew {

@@ -1,8 +1,8 @@
 #include "app/report/report_document.h"
 
 #include "app/scene/model_scene.h"
-#include "clinical/pipeline.h"
-#include "clinical/supported_bones.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/report/supported_bones.h"
 
 namespace sinew {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "app/report/radiograph_picture.h"
-#include "clinical/report.h"
+#include "clinical/report/report.h"
 
 namespace sinew {
 

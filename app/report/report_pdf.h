@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/model/model.h"
 
 class QImage;

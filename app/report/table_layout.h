@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/report/ink.h"
-#include "clinical/report.h"
+#include "clinical/report/report.h"
 
 namespace sinew {
 

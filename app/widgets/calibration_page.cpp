@@ -18,7 +18,7 @@
 #include "app/widgets/controls.h"
 #include "app/widgets/radiograph_pane.h"
 #include "app/widgets/theme.h"
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "core/file.h"
 #include "imaging/calibration/calibration_object.h"
 

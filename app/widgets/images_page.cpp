@@ -6,12 +6,12 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "app/model/new_case.h"
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
 #include "app/widgets/controls.h"
 #include "app/widgets/radiograph_pane.h"
 #include "app/widgets/theme.h"
+#include "clinical/case/new_case.h"
 #include "core/text.h"
 
 namespace sinew {

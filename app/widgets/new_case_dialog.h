@@ -2,7 +2,7 @@
 #include <QDialog>
 #include <filesystem>
 
-#include "app/model/new_case.h"
+#include "clinical/case/new_case.h"
 
 class QComboBox;
 class QFormLayout;

@@ -9,7 +9,7 @@
 #include "app/model/workspace.h"
 #include "app/widgets/controls.h"
 #include "app/widgets/theme.h"
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "core/file.h"
 
 namespace sinew {

@@ -13,8 +13,8 @@
 #include "app/widgets/model_view.h"
 #include "app/widgets/radiograph_pane.h"
 #include "app/widgets/theme.h"
-#include "clinical/report_tables.h"
-#include "clinical/supported_bones.h"
+#include "clinical/report/report_tables.h"
+#include "clinical/report/supported_bones.h"
 #include "core/model/bone_contours.h"
 
 namespace sinew {

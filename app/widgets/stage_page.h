@@ -1,7 +1,7 @@
 #pragma once
 #include <QWidget>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 
 class QHBoxLayout;
 class QLabel;

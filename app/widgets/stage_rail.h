@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 
 class QLabel;
 class QPushButton;

@@ -2,7 +2,7 @@
 
 #include "app/model/case_document.h"
 #include "app/model/stage_runner.h"
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "gui_support.h"
 #include "tests/support/temporary_folder.h"
 

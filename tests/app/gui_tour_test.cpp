@@ -19,7 +19,7 @@
 #include "app/widgets/radiograph_view.h"
 #include "app/widgets/report_pages.h"
 #include "app/widgets/vtk_view.h"
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "core/file.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/report/report_document.h"
-#include "clinical/report_tables.h"
+#include "clinical/report/report_tables.h"
 
 namespace sinew::test {
 

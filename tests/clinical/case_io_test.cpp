@@ -1,4 +1,4 @@
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "clinical/physical_exam.h"
+#include "clinical/exam/physical_exam.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "clinical/pipeline.h"
+#include "clinical/pipeline/pipeline.h"
 #include "core/file.h"
 #include "tests/clinical/random_case.h"
 

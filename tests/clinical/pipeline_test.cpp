@@ -1,12 +1,12 @@
-#include "clinical/pipeline.h"
+#include "clinical/pipeline/pipeline.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 #include <sstream>
 
-#include "clinical/case_io.h"
-#include "clinical/synthetic_case.h"
+#include "clinical/case/case_io.h"
+#include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
 #include "core/text.h"
 #include "imaging/radiograph/radiograph.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <random>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 
 namespace sinew::test {
 

@@ -1,4 +1,4 @@
-#include "clinical/norms.h"
+#include "clinical/report/norms.h"
 
 #include <gtest/gtest.h>
 

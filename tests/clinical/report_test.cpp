@@ -1,12 +1,12 @@
-#include "clinical/report.h"
+#include "clinical/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "clinical/pipeline.h"
-#include "clinical/report_tables.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/report/report_tables.h"
 #include "core/file.h"
 #include "core/version.h"
 #include "tests/support/finished_case.h"

@@ -1,10 +1,10 @@
-#include "clinical/synthetic_case.h"
+#include "clinical/synthetic/synthetic_case.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "clinical/case_io.h"
+#include "clinical/case/case_io.h"
 #include "core/file.h"
 #include "imaging/rig/rig_from_dicom.h"
 #include "tests/support/resources.h"

@@ -1,10 +1,10 @@
-#include "clinical/synthetic_patient.h"
+#include "clinical/synthetic/synthetic_patient.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "clinical/synthetic_rig.h"
+#include "clinical/synthetic/synthetic_rig.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/fit/landmark_protocol.h"
 #include "core/skeleton/shape/bone_field.h"

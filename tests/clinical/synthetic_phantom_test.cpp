@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "clinical/synthetic_case.h"
+#include "clinical/synthetic/synthetic_case.h"
 #include "imaging/calibration/calibrate.h"
 #include "imaging/calibration/detect_beads.h"
 #include "imaging/rig/rig_from_dicom.h"

@@ -1,4 +1,4 @@
-#include "clinical/synthetic_rig.h"
+#include "clinical/synthetic/synthetic_rig.h"
 
 #include <gtest/gtest.h>
 

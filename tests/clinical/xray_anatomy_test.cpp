@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "clinical/body_envelope.h"
-#include "clinical/bone_tissue.h"
+#include "clinical/synthetic/body_envelope.h"
+#include "clinical/synthetic/bone_tissue.h"
 #include "core/skeleton/kinematics.h"
 #include "imaging/xray/xray_attenuation.h"
 #include "tests/clinical/solids.h"

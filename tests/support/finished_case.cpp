@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "clinical/case_io.h"
-#include "clinical/pipeline.h"
-#include "clinical/synthetic_patient.h"
-#include "clinical/synthetic_rig.h"
+#include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/synthetic/synthetic_patient.h"
+#include "clinical/synthetic/synthetic_rig.h"
 #include "core/file.h"
 #include "core/rom/tests/exam_test.h"
 #include "imaging/radiograph/radiograph.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "clinical/case.h"
+#include "clinical/case/case.h"
 #include "core/model/model.h"
 
 namespace sinew::test {

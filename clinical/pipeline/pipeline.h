@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clinical/case/case.h"
+#include "core/model/model.h"
+#include "core/retarget/retarget.h"
+
+namespace sinew {
+
+/// What the stages need beside the case: nothing global.
+struct PipelineContext {
+  std::filesystem::path resource_dir;
+  std::filesystem::path case_dir;
+  const Model* reference = nullptr;
+  /// What the musculature is retargeted from, once it is needed. Empty: read from the resources.
+  std::function<std::shared_ptr<const RetargetReference>()> retargeting;
+  /// Writes the report PDF; supplied by the application, because it draws. Empty: the report stage says so and fails.
+  std::function<void(const Case&, const std::filesystem::path& case_dir, const std::filesystem::path& pdf)>
+      write_report;
+};
+
+enum class StageState { Missing, Blocked, Ready, Stale, Done, Failed };
+std::string nameOf(StageState state);  ///< "missing", ...
+
+/// State of a stage. Missing = nothing entered for it; Blocked = an earlier stage is not done, and this one has not
+/// run; Ready = can run; Stale = ran from other inputs than today's, or an earlier stage is not done any more; Done;
+/// Failed = ran from today's inputs and did not converge. A cancelled stage is Ready, or Stale if an earlier result
+/// is kept.
+StageState stateOf(const Case& c, Stage stage);
+
+/// Code of the warning that the landmarks stage leaves if none of the points belongs to the skeleton.
+inline constexpr std::string_view kNoKnownLandmarks = "no_known_landmarks";
+
+/// What is to be entered before the stage can run, in words for a person; empty if nothing is missing.
+std::string missingInput(const Case& c, Stage stage);
+
+/// Hash of everything the stage reads, today: entered data, files by their hashes, results of earlier stages, and the
+/// revision of the stage's method.
+std::string inputHash(const Case& c, Stage stage);
+
+/// Runs one stage from the stored inputs; returns the case with result and record. Pure but for files below
+/// case_dir/results. Cancelled or failed stages keep the previous result and say so in the record.
+/// @throws InputError for unusable inputs (missing file, no sightings, stale predecessor, ...).
+Case runStage(const Case& c, Stage stage, const PipelineContext& context, const Job& job = {});
+
+/// The report's inputs are all done and fresh; otherwise why not, one line a stage.
+std::vector<std::string> reasonsAgainstReport(const Case& c);
+
+/// The patient's model as far as the case has got: fitted bones with muscles anchored to them, then the retargeted
+/// muscles, then the exam's length factors.
+/// @throws InputError if the file of the retargeted muscles is missing or changed.
+std::optional<Model> patientModel(const Case& c, const Model& reference, const std::filesystem::path& case_dir);
+/// The same without the exam's length factors. @pre the skeleton is fitted.
+Model modelBeforeExam(const Case& c, const Model& reference, const std::filesystem::path& case_dir);
+
+}  // namespace sinew

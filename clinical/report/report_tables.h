@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "clinical/report/norms.h"
+#include "clinical/report/report.h"
+#include "core/rom/tests/exam_test.h"
+
+namespace sinew {
+
+// The tables of the report, each from the part of the case that it shows.
+
+inline constexpr const char* kNotMeasured = "not measured";
+inline constexpr const char* kUndetermined = "undetermined";
+inline constexpr const char* kNoNorm = "no norm";
+
+/// "12.3", "-4"; "not measured" for NaN.
+std::string numberText(double value, int decimals = 0);
+/// With its sign: "+3", "-4", "0".
+std::string signedText(double value, int decimals = 0);
+/// "Right" or "Left".
+std::string sideText(char side);
+/// A date from DICOM ("20260504") as 2026-05-04; any other text stays.
+std::string dateText(const std::string& date);
+/// A name from DICOM ("Hong^Gildong=...=...") as people write it.
+std::string personText(const std::string& dicom_name);
+
+/// Left, right, difference, norm and z-scores of every figure. A midline figure stands in the left column and spans
+/// into the right one (kSpan).
+ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const NormQuery& who);
+
+/// Measured, norm, simulated before and after, residual, threshold, what limits: a row a test and side.
+ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamProtocol& protocol);
+
+/// Length factor a group and side, strength, and which tests it limits.
+ReportTable muscleTable(const ExamFit& fit, const ExamProtocol& protocol);
+
+// Annexes.
+ReportTable definitionTable(const SkeletonFit& fit, const NormTable& norms);
+ReportTable protocolTable(const ExamFit& fit, const ExamProtocol& protocol);
+ReportTable landmarkTable(const Case& c);
+ReportTable lengthFactorTable(const ExamFit& fit);
+ReportTable truthTable(const Case& c);
+ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir);
+
+std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ExamProtocol& protocol);
+
+}  // namespace sinew
