@@ -3,10 +3,10 @@
 #include <string_view>
 
 #include "app/cli/cli.h"
-#include "app/cli/exit_status.h"
-#include "app/cli/resource_folder.h"
+#include "app/cli/support/exit_status.h"
+#include "app/cli/support/resource_folder.h"
 #include "app/report/report_pdf.h"
-#include "app/widgets/run_window.h"
+#include "app/widgets/shell/run_window.h"
 #include "core/error.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "app/bench/dart_routing.h"
-#include "core/experiments/characters.h"
-#include "core/experiments/experiment_shapes.h"
+#include "app/experiments/characters.h"
+#include "app/experiments/experiment_shapes.h"
 
 namespace sinew {
 namespace {

@@ -5,8 +5,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "app/cli/commands.h"
-#include "app/cli/resource_folder.h"
+#include "app/cli/support/commands.h"
+#include "app/cli/support/resource_folder.h"
 #include "core/text.h"
 #include "core/version.h"
 

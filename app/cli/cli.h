@@ -1,5 +1,5 @@
 #pragma once
-#include "app/cli/session.h"
+#include "app/cli/support/session.h"
 
 namespace sinew {
 

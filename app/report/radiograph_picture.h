@@ -3,7 +3,7 @@
 #include <QString>
 #include <filesystem>
 
-#include "app/report/ink.h"
+#include "app/plot/ink.h"
 #include "clinical/case/case.h"
 #include "core/model/bone_contours.h"
 

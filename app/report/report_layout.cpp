@@ -5,7 +5,7 @@
 #include <memory>
 #include <numeric>
 
-#include "app/report/moment_plot.h"
+#include "app/plot/moment_plot.h"
 #include "app/report/page_flow.h"
 #include "app/scene/palette.h"
 

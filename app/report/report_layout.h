@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "app/report/ink.h"
+#include "app/plot/ink.h"
 #include "app/report/report_document.h"
 
 namespace sinew {

@@ -8,7 +8,7 @@
 #include <QPdfWriter>
 #include <cmath>
 
-#include "app/report/gui_application.h"
+#include "app/plot/gui_application.h"
 #include "app/report/report_layout.h"
 #include "core/error.h"
 #include "core/file.h"

@@ -2,7 +2,7 @@
 #include <QString>
 #include <vector>
 
-#include "app/report/ink.h"
+#include "app/plot/ink.h"
 #include "clinical/report/report.h"
 
 namespace sinew {

@@ -15,10 +15,10 @@
 #include <QTest>
 #include <algorithm>
 
+#include "app/widgets/controls/range_slider.h"
 #include "app/widgets/explorer/explorer_page.h"
-#include "app/widgets/explorer/range_slider.h"
-#include "app/widgets/model_view.h"
-#include "app/widgets/vtk_view.h"
+#include "app/widgets/views/model_view.h"
+#include "app/widgets/views/vtk_view.h"
 #include "core/angle.h"
 #include "tests/support/resources.h"
 #include "window_tour.h"

@@ -7,10 +7,10 @@
 #include <QTest>
 #include <QWheelEvent>
 
-#include "app/widgets/curve_plot.h"
-#include "app/widgets/radiograph_pane.h"
-#include "app/widgets/radiograph_view.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/curve_plot.h"
+#include "app/widgets/controls/theme.h"
+#include "app/widgets/views/radiograph_pane.h"
+#include "app/widgets/views/radiograph_view.h"
 #include "tests/support/resources.h"
 
 namespace sinew {

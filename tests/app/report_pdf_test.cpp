@@ -10,8 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "app/report/gui_application.h"
-#include "app/report/moment_plot.h"
+#include "app/plot/gui_application.h"
+#include "app/plot/moment_plot.h"
 #include "app/report/report_layout.h"
 #include "app/report/table_layout.h"
 #include "core/error.h"

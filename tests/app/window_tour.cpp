@@ -9,8 +9,8 @@
 #include <QTimer>
 #include <ctime>
 
-#include "app/widgets/theme.h"
-#include "app/widgets/vtk_view.h"
+#include "app/widgets/controls/theme.h"
+#include "app/widgets/views/vtk_view.h"
 #include "tests/support/resources.h"
 
 namespace sinew::test {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/model/workspace.h"
-#include "app/widgets/main_window.h"
-#include "app/widgets/report_page.h"
+#include "app/widgets/shell/main_window.h"
+#include "app/widgets/stages/report_page.h"
 #include "gui_support.h"
 
 namespace sinew::test {

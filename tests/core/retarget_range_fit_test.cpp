@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/experiments/experiment_shapes.h"
+#include "app/experiments/experiment_shapes.h"
 #include "core/muscle/hill.h"
 #include "core/retarget/lengths/range_fit.h"
 #include "core/rom/maps/rom_map.h"

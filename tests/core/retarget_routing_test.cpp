@@ -2,8 +2,8 @@
 
 #include <random>
 
+#include "app/experiments/experiment_shapes.h"
 #include "core/angle.h"
-#include "core/experiments/experiment_shapes.h"
 #include "core/muscle/muscle_path.h"
 #include "core/retarget/routing/unit_problem_internal.h"
 #include "tests/support/retarget_reference.h"

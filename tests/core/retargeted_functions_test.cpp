@@ -1,7 +1,7 @@
 // Anatomy in new bodies: rows of the table of functions that hold in the reference hold in mild shapes.
 #include <gtest/gtest.h>
 
-#include "core/experiments/experiment_shapes.h"
+#include "app/experiments/experiment_shapes.h"
 #include "core/muscle/moment_references.h"
 #include "core/retarget/retarget.h"
 #include "core/rom/poses/pose_sampler.h"

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "app/experiments/rom_edit_experiment.h"
 #include "core/error.h"
 #include "core/muscle/hill.h"
 #include "core/posture/muscle_role.h"
@@ -13,7 +14,6 @@
 #include "core/rom/maps/rom_cells_internal.h"
 #include "core/rom/maps/rom_limits.h"
 #include "core/rom/poses/pose_sampler.h"
-#include "core/rom/rom_edit_experiment.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/retarget_json.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
+#include "app/cli/support/retarget_json.h"
+#include "app/cli/support/text_table.h"
+#include "app/plot/svg_charts.h"
 #include "app/scene/model_scene.h"
 #include "core/file.h"
 #include "core/foreign/foreign_from_model.h"

@@ -2,10 +2,10 @@
 #include <numeric>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/svg_plot.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/disorders.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/disorders.h"
+#include "app/plot/svg_charts.h"
+#include "app/plot/svg_plot.h"
 
 namespace sinew {
 namespace {

@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/experiment_shapes.h"
-#include "core/experiments/method_comparison.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/experiment_shapes.h"
+#include "app/experiments/method_comparison.h"
+#include "app/plot/svg_charts.h"
 
 namespace sinew {
 namespace {

@@ -1,7 +1,7 @@
 #include "app/cli/experiments/experiment.h"
 
-#include "app/cli/retarget_reference.h"
-#include "app/cli/text_table.h"
+#include "app/cli/support/retarget_reference.h"
+#include "app/cli/support/text_table.h"
 
 namespace sinew {
 

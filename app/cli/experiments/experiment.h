@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/session.h"
-#include "core/experiments/characters.h"
+#include "app/cli/support/session.h"
+#include "app/experiments/characters.h"
 #include "core/retarget/retarget.h"
 #include "core/strict_json.h"
 

@@ -1,7 +1,7 @@
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_plot.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/moment_arm_curves.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/moment_arm_curves.h"
+#include "app/plot/svg_plot.h"
 
 namespace sinew {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/retarget_json.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/experiment_shapes.h"
-#include "core/experiments/missed_peaks.h"
+#include "app/cli/support/retarget_json.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/experiment_shapes.h"
+#include "app/experiments/missed_peaks.h"
+#include "app/plot/svg_charts.h"
 
 namespace sinew {
 namespace {

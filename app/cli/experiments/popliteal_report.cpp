@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_plot.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/popliteal.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/popliteal.h"
+#include "app/plot/svg_plot.h"
 
 namespace sinew {
 namespace {

@@ -1,8 +1,8 @@
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/pose_dependence.h"
+#include "app/plot/svg_charts.h"
 #include "app/scene/rom_sphere.h"
-#include "core/experiments/pose_dependence.h"
 
 #include <algorithm>
 

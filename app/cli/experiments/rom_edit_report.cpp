@@ -1,7 +1,7 @@
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
-#include "core/rom/rom_edit_experiment.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/rom_edit_experiment.h"
+#include "app/plot/svg_charts.h"
 
 namespace sinew {
 namespace {

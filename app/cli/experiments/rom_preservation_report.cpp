@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "app/cli/experiments/experiment.h"
-#include "app/cli/svg_charts.h"
-#include "app/cli/text_table.h"
-#include "core/experiments/rom_preservation.h"
+#include "app/cli/support/text_table.h"
+#include "app/experiments/rom_preservation.h"
+#include "app/plot/svg_charts.h"
 
 namespace sinew {
 namespace {

@@ -12,8 +12,8 @@
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 namespace {

@@ -15,15 +15,15 @@
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/explorer/colour_bar.h"
+#include "app/widgets/controls/colour_bar.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "app/widgets/explorer/joint_panel.h"
 #include "app/widgets/explorer/muscle_card.h"
 #include "app/widgets/explorer/muscle_curves.h"
 #include "app/widgets/explorer/muscle_finder.h"
 #include "app/widgets/explorer/rom_panel.h"
-#include "app/widgets/model_view.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/views/model_view.h"
 
 namespace sinew {
 namespace {

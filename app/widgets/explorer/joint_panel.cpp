@@ -16,9 +16,9 @@
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/explorer/range_slider.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/range_slider.h"
+#include "app/widgets/controls/theme.h"
 #include "core/angle.h"
 #include "core/skeleton/motion_words.h"
 

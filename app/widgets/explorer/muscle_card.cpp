@@ -7,7 +7,7 @@
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "app/model/explorer/explorer.h"
 #include "app/model/explorer/muscle_text.h"
-#include "app/widgets/controls.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "app/widgets/explorer/activation_controls.h"
 #include "app/widgets/explorer/muscle_table.h"
-#include "app/widgets/theme.h"
 
 namespace sinew {
 MuscleFinder::MuscleFinder(Explorer& explorer, QWidget* parent) : QWidget{parent}, explorer_{explorer} {

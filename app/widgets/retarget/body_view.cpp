@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "app/scene/lineup.h"
-#include "app/widgets/explorer/colour_bar.h"
-#include "app/widgets/model_view.h"
+#include "app/widgets/controls/colour_bar.h"
 #include "app/widgets/retarget/change_inspector.h"
 #include "app/widgets/retarget/family_curves.h"
+#include "app/widgets/views/model_view.h"
 
 namespace sinew {
 namespace {

@@ -11,9 +11,9 @@
 #include <algorithm>
 
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "app/widgets/retarget/change_table.h"
-#include "app/widgets/theme.h"
 
 namespace sinew {
 namespace {

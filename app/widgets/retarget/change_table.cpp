@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/model/stage_text.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 QString energyText(double energy) {

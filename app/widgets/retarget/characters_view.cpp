@@ -10,8 +10,8 @@
 #include <QVBoxLayout>
 
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 namespace {

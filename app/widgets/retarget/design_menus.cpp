@@ -6,8 +6,8 @@
 #include "app/model/retarget/design_files.h"
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 namespace {

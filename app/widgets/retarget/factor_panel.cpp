@@ -15,8 +15,8 @@
 #include "app/model/retarget/factor_form.h"
 #include "app/model/retarget/shape_form.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "core/muscle/musculature.h"
 
 namespace sinew {

@@ -9,8 +9,8 @@
 
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/curve_plot.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/curve_plot.h"
+#include "app/widgets/controls/theme.h"
 #include "core/posture/evaluate.h"
 #include "core/posture/muscle_role.h"
 #include "core/skeleton/motion_words.h"

@@ -14,7 +14,8 @@
 #include "app/model/retarget/shape_form.h"
 #include "app/model/stage_text.h"
 #include "app/model/workspace.h"
-#include "app/widgets/controls.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "app/widgets/retarget/body_view.h"
 #include "app/widgets/retarget/characters_view.h"
 #include "app/widgets/retarget/design_menus.h"
@@ -23,7 +24,6 @@
 #include "app/widgets/retarget/rom_edit_view.h"
 #include "app/widgets/retarget/shape_panel.h"
 #include "app/widgets/retarget/solver_state.h"
-#include "app/widgets/theme.h"
 
 namespace sinew {
 namespace {

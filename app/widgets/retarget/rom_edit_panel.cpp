@@ -12,8 +12,8 @@
 #include "app/model/retarget/design_files.h"
 #include "app/model/retarget/rom_handles.h"
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
 #include "core/angle.h"
 
 namespace sinew {

@@ -11,12 +11,12 @@
 
 #include "app/model/stage_text.h"
 #include "app/scene/rom_patch.h"
-#include "app/widgets/controls.h"
-#include "app/widgets/explorer/colour_bar.h"
-#include "app/widgets/retarget/edit_sphere.h"
-#include "app/widgets/retarget/range_bar.h"
+#include "app/widgets/controls/colour_bar.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/range_bar.h"
+#include "app/widgets/controls/theme.h"
 #include "app/widgets/retarget/rom_edit_panel.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/views/edit_sphere.h"
 #include "core/angle.h"
 
 namespace sinew {

@@ -8,9 +8,9 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
-#include "app/widgets/controls.h"
-#include "app/widgets/retarget/parameter_row.h"
-#include "app/widgets/theme.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/parameter_row.h"
+#include "app/widgets/controls/theme.h"
 
 namespace sinew {
 

@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 
 #include "app/model/stage_text.h"
-#include "app/widgets/controls.h"
+#include "app/widgets/controls/controls.h"
 
 namespace sinew {
 

@@ -1,0 +1,129 @@
+#include <memory>
+
+#include "app/cli/support/case_runner.h"
+#include "app/cli/support/commands.h"
+#include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/synthetic/synthetic_case.h"
+#include "core/file.h"
+#include "core/text.h"
+
+namespace sinew {
+namespace {
+
+std::optional<Stage> stageOption(const std::string& name) {
+  return name.empty() ? std::nullopt : std::optional{stageFromName(name)};
+}
+
+void addRun(Commands& commands) {
+  struct Options {
+    std::filesystem::path folder;
+    std::string from, to;
+  };
+  auto o = std::make_shared<Options>();
+  auto& command = addCommand(commands.app, "run", "run the stages of a case that are not done",
+                             "sinew run mycase --to skeleton\n"
+                             "  Stages: images calibration landmarks skeleton musculature exam report.\n"
+                             "  Without --to: as far as what was entered allows.");
+  command.add_option("CASE", o->folder, "case folder")->required();
+  command.add_option("--from", o->from, "run this stage and those after it even if they are done");
+  command.add_option("--to", o->to, "last stage to run");
+  command.callback([&commands, o] {
+    commands.chosen = [&session = commands.session, o] {
+      const RunRequest request{stageOption(o->from), stageOption(o->to)};
+      Case c = loadCase(o->folder);
+      const RunReport report = runCase(c, o->folder, request, session);
+      return finishRun(c, o->folder, report, "sinew.run", session);
+    };
+  });
+}
+
+/// Runs the report stage alone: a report is never made from stale results.
+void addReport(Commands& commands) {
+  struct Options {
+    std::filesystem::path folder, output;
+  };
+  auto o = std::make_shared<Options>();
+  auto& command = addCommand(commands.app, "report", "write the report of a case whose other stages are done",
+                             "sinew report mycase -o report.pdf");
+  command.add_option("CASE", o->folder, "case folder")->required();
+  command.add_option("-o,--output", o->output, "copy of the report");
+  command.callback([&commands, o] {
+    commands.chosen = [&session = commands.session, o] {
+      Case c = loadCase(o->folder);
+      const auto reasons = reasonsAgainstReport(c);
+      if (!reasons.empty()) {
+        std::string all;
+        for (const auto& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
+        throw InputError{{o->folder.string(), "report", "every stage done", all}};
+      }
+      RunRequest request{Stage::Report, Stage::Report};
+      const RunReport report = runCase(c, o->folder, request, session);
+      if (report.status == ExitStatus::Done && !o->output.empty())
+        writeFileAtomically(o->output, readFile(checkedFile(*c.report, o->folder)));
+      return finishRun(c, o->folder, report, "sinew.report", session);
+    };
+  });
+}
+
+/// Only an empty folder or an earlier demo is written into.
+void refuseForeignFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error) || std::filesystem::is_empty(folder, error)) return;
+  if (std::filesystem::exists(folder / "case.json", error) && loadCase(folder).truth) return;
+  throw InputError{{folder.string(), "", "an empty folder or an earlier demo", "other files, which are kept"}};
+}
+
+void addDemo(Commands& commands) {
+  struct Options {
+    std::filesystem::path folder = "sinew-demo";
+    unsigned seed = 1;
+    std::string rig = "cone-beam";
+    int binning = 1;
+  };
+  auto o = std::make_shared<Options>();
+  auto& command = addCommand(commands.app, "demo",
+                             "make the embedded synthetic patient, run the whole way, compare with the truth",
+                             "sinew demo --out demo --seed 7 --rig slot-scan");
+  command.add_option("--out", o->folder, "case folder to make")->capture_default_str();
+  command.add_option("--seed", o->seed, "which patient")->capture_default_str();
+  command.add_option("--rig", o->rig, "cone-beam (pair calibrated from a bead phantom) or slot-scan")
+      ->capture_default_str();
+  command.add_option("--binning", o->binning, "detector pixels joined into one: 2 quarters size and time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4));
+  command.callback([&commands, o] {
+    commands.chosen = [&session = commands.session, o] {
+      const std::vector<std::string> rigs = {"cone-beam", "slot-scan"};
+      if (std::ranges::find(rigs, o->rig) == rigs.end())
+        throw InputError{
+            {"sinew demo", "--rig", "cone-beam or slot-scan", "'" + o->rig + "'" + didYouMean(o->rig, rigs)}};
+      refuseForeignFolder(o->folder);
+      SyntheticOptions options;
+      options.resource_dir = session.resourceDir();
+      options.seed = o->seed;
+      options.binning = o->binning;
+      options.rig = o->rig == rigs[0] ? SyntheticRig::ConeBeam : SyntheticRig::SlotScan;
+      const auto patient = drawSyntheticPatient(*session.retargeting(), options);
+      Case c = writeSyntheticCase(patient, session.reference(), options, o->folder, session.job());
+      if (session.job().cancelled()) {
+        session.result(
+            {{"format", "sinew.demo"}, {"version", 1}, {"outcome", "cancelled"}, {"stages", Json::array()}},
+            "cancelled\n");
+        return ExitStatus::NotConverged;
+      }
+      const RunReport report = runCase(c, o->folder, {}, session);
+      return finishRun(c, o->folder, report, "sinew.demo", session);
+    };
+  });
+}
+
+}  // namespace
+
+void addRunCommands(Commands& commands) {
+  addDemo(commands);
+  addRun(commands);
+  addReport(commands);
+}
+
+}  // namespace sinew

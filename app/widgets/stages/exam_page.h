@@ -1,0 +1,51 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/widgets/stages/stage_page.h"
+
+class QComboBox;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QVBoxLayout;
+
+namespace sinew {
+
+class CurvePlot;
+struct ExamTest;
+
+/// The examination by test and side: what was measured, what the model gives in the same test before and after its
+/// muscle lengths were solved, what remains, and which muscles limit.
+class ExamPage : public StagePage {
+  Q_OBJECT
+ public:
+  explicit ExamPage(Workspace& workspace);
+
+ protected:
+  void refresh() override;
+
+ private:
+  struct Line {
+    QLineEdit *measured, *stop, *note;
+    QLabel *before, *after, *residual, *limiting;
+  };
+  void buildForm();
+  QWidget* makeTestCard(const ExamTest& test);
+  Line makeLine(const ExamTest& test, char side, QGridLayout& grid, int row);
+  void enterStop(const ExamTest& test, char side, const QString& text);
+  void enterMeasured(const ExamTest& test, char side, const QString& text);
+  void refreshLine(const ExamTest& test, char side, Line& line);
+  void refreshPlot();
+
+  QVBoxLayout* form_;
+  QLineEdit *examiner_, *date_;
+  QComboBox *plot_test_, *plot_side_;
+  CurvePlot* plot_;
+  QLabel* verdict_;
+  std::map<std::pair<std::string, char>, Line> lines_;
+  bool built_ = false;
+};
+
+}  // namespace sinew

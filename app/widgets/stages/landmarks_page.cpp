@@ -1,0 +1,358 @@
+#include "app/widgets/stages/landmarks_page.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "app/model/case_actions.h"
+#include "app/model/stage_text.h"
+#include "app/model/workspace.h"
+#include "app/widgets/controls/controls.h"
+#include "app/widgets/controls/theme.h"
+#include "app/widgets/views/radiograph_pane.h"
+
+namespace sinew {
+namespace {
+
+enum Column { kName, kFrontal, kLateral, kResidual };
+constexpr double kGross_sigmas = 5;  // the residual that triangulateAll() warns of
+
+}  // namespace
+
+LandmarksPage::LandmarksPage(Workspace& workspace)
+    : StagePage{workspace, Stage::Landmarks, tr("Choose a landmark and click it in both radiographs.")} {
+  auto* import = makeButton("import_sightings", tr("Import"), "import", tr("Read sightings from a CSV file"));
+  auto* save = makeButton("export_sightings", tr("Export"), "export", tr("Write the sightings to a CSV file"));
+  actions().addWidget(import);
+  actions().addWidget(save);
+  connect(import, &QPushButton::clicked, this, [this] {
+    const auto file = askForFile(this, tr("Sightings"), tr("Tables (*.csv);;All files (*)"));
+    if (!file.empty()) importSightings(file);
+  });
+  connect(save, &QPushButton::clicked, this, [this] {
+    const auto file = askForNewFile(this, tr("Export sightings"), "sightings.csv", tr("Tables (*.csv)"));
+    if (!file.empty()) exportSightings(file);
+  });
+
+  auto* side = new QWidget;
+  side->setFixedWidth(326);
+  buildList(*side);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(12);
+  row->addWidget(side);
+  for (int view = 0; view < 2; ++view) {
+    panes_[std::size_t(view)] = new RadiographPane{workspace, view, false};
+    panes_[std::size_t(view)]->view().setTool(RadiographView::Tool::Place);
+    panes_[std::size_t(view)]->view().setLoupe(true);
+    connectPane(*panes_[std::size_t(view)]);
+    row->addWidget(panes_[std::size_t(view)], 1);
+  }
+  body().addLayout(row, 1);
+  connect(&workspace.view(), &ViewState::landmarkChanged, this, [this] {
+    if (!isVisible()) return;
+    refreshMarks();
+    refreshCard();
+    const auto& selected = this->workspace().view().landmark();
+    for (int i = 0; i < int(names_.size()); ++i)
+      if (names_[std::size_t(i)] == selected && table_->currentRow() != i) {
+        const QSignalBlocker block{table_};
+        table_->selectRow(i);
+        table_->scrollToItem(table_->item(i, 0));
+      }
+  });
+}
+
+void LandmarksPage::buildList(QWidget& side) {
+  auto* column = new QVBoxLayout{&side};
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  search_ = makeSearchField("landmark_search", tr("Find a landmark"));
+  progress_ = makeLabel({}, "small");
+  progress_->setObjectName("landmark_progress");
+  rms_ = makeLabel({}, "small");
+  rms_->setObjectName("landmark_rms");
+  auto* line = new QHBoxLayout;
+  line->addWidget(progress_, 1);
+  line->addWidget(rms_);
+  table_ = makeTable("landmark_table", {tr("Landmark"), tr("F"), tr("L"), tr("px")});
+  table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
+  for (const int c : {kFrontal, kLateral, kResidual})
+    table_->horizontalHeader()->setSectionResizeMode(c, QHeaderView::Fixed);
+  table_->setColumnWidth(kFrontal, 30);
+  table_->setColumnWidth(kLateral, 30);
+  table_->setColumnWidth(kResidual, 52);
+  table_->horizontalHeaderItem(kFrontal)->setToolTip(tr("Placed in the frontal view"));
+  table_->horizontalHeaderItem(kLateral)->setToolTip(tr("Placed in the lateral view"));
+  table_->horizontalHeaderItem(kResidual)->setToolTip(tr("Reprojection residual of both views"));
+  table_->setAccessibleName(tr("Landmarks"));
+
+  auto* card = new Card;
+  card_title_ = makeLabel({}, "heading");
+  card_title_->setObjectName("landmark_title");
+  card_text_ = makeLabel({}, "small");
+  card_text_->setObjectName("landmark_details");
+  card_text_->setWordWrap(true);
+  card_text_->setMinimumHeight(66);
+  card_text_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  card->content().addWidget(card_title_);
+  card->content().addWidget(card_text_);
+  auto* tools = new QHBoxLayout;
+  auto* previous = makeToolButton("previous_landmark", "previous", tr("Previous landmark (P)"));
+  auto* next = makeToolButton("next_landmark", "next", tr("Next landmark (N)"));
+  auto* missing = makeButton("next_missing_landmark", tr("Next to place"), "",
+                             tr("Next landmark that is missing in a view (Space)"));
+  remove_ = makeButton("remove_landmark", {}, "delete",
+                       tr("Remove from both views (Delete: only from the view used last)"));
+  for (QWidget* button :
+       {static_cast<QWidget*>(previous), static_cast<QWidget*>(next), static_cast<QWidget*>(missing)})
+    tools->addWidget(button);
+  tools->addStretch();
+  tools->addWidget(remove_);
+  card->content().addLayout(tools);
+
+  column->addWidget(search_);
+  column->addLayout(line);
+  column->addWidget(table_, 1);
+  column->addWidget(card);
+
+  connect(search_, &QLineEdit::textChanged, this, &LandmarksPage::filterRows);
+  connect(table_, &QTableWidget::currentCellChanged, this, [this](int row) {
+    if (row >= 0 && row < int(names_.size())) workspace().view().setLandmark(names_[std::size_t(row)]);
+  });
+  connect(previous, &QToolButton::clicked, this, [this] { step(-1); });
+  connect(next, &QToolButton::clicked, this, [this] { step(1); });
+  connect(missing, &QPushButton::clicked, this, &LandmarksPage::selectNextMissing);
+  connect(remove_, &QPushButton::clicked, this, [this] { removeSelected(true); });
+}
+
+void LandmarksPage::connectPane(RadiographPane& pane) {
+  const int view = pane.viewIndex();
+  RadiographView& canvas = pane.view();
+  connect(&canvas, &RadiographView::placed, this, [this, view](const QPointF& uv_px) {
+    const std::string name = workspace().view().landmark();
+    if (name.empty()) {
+      emit workspace().problem(tr("Choose a landmark in the list first."));
+      return;
+    }
+    place(view, name, uv_px);
+  });
+  connect(&canvas, &RadiographView::markPressed, this, [this, view](const std::string& name) {
+    last_view_ = view;
+    workspace().view().setLandmark(name);
+  });
+  connect(&canvas, &RadiographView::markDragged, this, [this, view](const std::string& name, const QPointF& uv_px) {
+    workspace().document().preview([&](Case& c) { setSighting(c, name, view, {uv_px.x(), uv_px.y()}, 1); });
+  });
+  connect(&canvas, &RadiographView::markDropped, this,
+          [this, view](const std::string& name, const QPointF& uv_px) { place(view, name, uv_px); });
+  connect(&canvas, &RadiographView::markDragCancelled, &workspace().document(), &CaseDocument::dropPreview);
+}
+
+void LandmarksPage::place(int view, const std::string& name, const QPointF& uv_px) {
+  last_view_ = view;
+  const Radiograph* r = panes_[std::size_t(view)]->view().radiograph();
+  const Eigen::Vector2d inside{std::clamp(uv_px.x(), 0.0, r->width_px - 1.0),
+                               std::clamp(uv_px.y(), 0.0, r->height_px - 1.0)};
+  const bool known = findSighting(shownCase(), name, view) != nullptr;
+  const QString label = (known ? tr("Move %1") : tr("Place %1")).arg(readableName(name));
+  workspace().document().edit(label, [&](Case& c) { setSighting(c, name, view, inside, typicalSigma_px(c)); });
+}
+
+void LandmarksPage::removeSelected(bool both_views) {
+  const std::string name = workspace().view().landmark();
+  workspace().document().edit(tr("Remove %1").arg(readableName(name)), [&](Case& c) {
+    for (int view = 0; view < 2; ++view)
+      if (both_views || view == last_view_) removeSighting(c, name, view);
+  });
+}
+
+void LandmarksPage::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      removeSelected(false);
+      break;
+    case Qt::Key_N:
+      step(1);
+      break;
+    case Qt::Key_P:
+      step(-1);
+      break;
+    case Qt::Key_Space:
+      selectNextMissing();
+      break;
+    default:
+      StagePage::keyPressEvent(event);
+  }
+}
+
+void LandmarksPage::step(int direction) {
+  const int count = table_->rowCount();
+  for (int i = table_->currentRow() + direction; i >= 0 && i < count; i += direction)
+    if (!table_->isRowHidden(i)) {
+      table_->setCurrentCell(i, 0);
+      return;
+    }
+}
+
+void LandmarksPage::selectNextMissing() {
+  const int count = int(names_.size());
+  for (int i = 1; i <= count; ++i) {
+    const int row = (std::max(table_->currentRow(), -1) + i) % count;
+    const auto found = findings_.find(names_[std::size_t(row)]);
+    if (found != findings_.end() && found->second.seen[0] && found->second.seen[1]) continue;
+    search_->clear();
+    table_->setCurrentCell(row, 0);
+    return;
+  }
+  emit workspace().notice(tr("Every landmark is placed in both views."));
+}
+
+void LandmarksPage::filterRows() {
+  const QString wanted = search_->text().trimmed();
+  for (int i = 0; i < table_->rowCount(); ++i)
+    table_->setRowHidden(i,
+                         !wanted.isEmpty() && !table_->item(i, kName)->text().contains(wanted, Qt::CaseInsensitive));
+}
+
+void LandmarksPage::refresh() {
+  for (auto* pane : panes_) pane->refresh();
+  refreshNames();
+  refreshFindings();
+}
+
+void LandmarksPage::refreshNames() {
+  if (protocol_.empty()) protocol_ = loadLandmarkProtocol(workspace().resourceDir());
+  std::vector<std::string> protocol;
+  for (const auto& landmark : protocol_) protocol.push_back(landmark.name);
+  auto names = landmarkNames(shownCase(), protocol);
+  if (names == names_) return;
+  names_ = std::move(names);
+  const QSignalBlocker block{table_};
+  table_->setRowCount(int(names_.size()));
+  for (int i = 0; i < int(names_.size()); ++i)
+    setCell(*table_, i, kName, titleOfLandmark(names_[std::size_t(i)]))
+        ->setToolTip(QString::fromStdString(names_[std::size_t(i)]));
+  if (workspace().view().landmark().empty() && !names_.empty()) workspace().view().setLandmark(names_.front());
+  filterRows();
+}
+
+void LandmarksPage::refreshFindings() {
+  const Case& c = shownCase();
+  findings_.clear();
+  for (const auto& s : c.sightings) findings_[s.name].seen[s.view] = true;
+  double rms_px = std::numeric_limits<double>::quiet_NaN();
+  if (c.rig) {
+    const Triangulation points = triangulateAll(*c.rig, c.sightings);
+    rms_px = points.rms_px;
+    for (const auto& p : points.points) {
+      Finding& finding = findings_[p.name];
+      finding.residual_px = p.reprojection_rms_px;
+      finding.residual = p.residual_px;
+      finding.sd_mm = 1000 * std::sqrt(p.cov_W.trace() / 3);
+    }
+  }
+  int both = 0;
+  for (int i = 0; i < int(names_.size()); ++i) {
+    const auto& finding = findings_[names_[std::size_t(i)]];
+    both += finding.seen[0] && finding.seen[1];
+    setCell(*table_, i, kFrontal, finding.seen[0] ? "●" : "○", Qt::AlignCenter);
+    setCell(*table_, i, kLateral, finding.seen[1] ? "●" : "○", Qt::AlignCenter);
+    for (const int column : {kFrontal, kLateral})
+      table_->item(i, column)->setForeground(finding.seen[column - kFrontal] ? colour::kSuccess
+                                                                             : QColor{0x9a, 0xa6, 0xb1});
+    auto* residual =
+        setCell(*table_, i, kResidual,
+                std::isfinite(finding.residual_px) ? figure(finding.residual_px, 1) : QString{}, kNumber);
+    const bool gross = finding.residual_px > kGross_sigmas * typicalSigma_px(c);
+    residual->setForeground(gross ? colour::kDanger : colour::kText);
+  }
+  progress_->setText(tr("%1 of %2 placed in both views").arg(both).arg(names_.size()));
+  rms_->setText(std::isfinite(rms_px) ? tr("RMS %1 px").arg(figure(rms_px, 2)) : QString{});
+  refreshMarks();
+  refreshCard();
+}
+
+void LandmarksPage::refreshMarks() {
+  const Case& c = shownCase();
+  const std::string& selected = workspace().view().landmark();
+  for (int view = 0; view < 2; ++view) {
+    std::vector<MarkOverlay> marks;
+    for (const auto& s : c.sightings) {
+      if (s.view != view) continue;
+      MarkOverlay mark{s.name, {s.uv_px.x(), s.uv_px.y()}, sideColour(s.name), false, {}};
+      const auto found = findings_.find(s.name);
+      if (found != findings_.end() && std::isfinite(found->second.residual_px)) {
+        const Eigen::Vector2d projected = s.uv_px - found->second.residual[std::size_t(view)];
+        mark.projected_px = QPointF{projected.x(), projected.y()};
+      }
+      marks.push_back(std::move(mark));
+    }
+    std::vector<LineOverlay> lines;
+    if (c.rig)
+      if (const Sighting* other = findSighting(c, selected, 1 - view)) {
+        LineOverlay line{{}, colour::kEpipolar, 1.3, true};
+        for (const auto& p : epipolarLine(*c.rig, 1 - view, other->uv_px)) line.points_px.emplace_back(p.x(), p.y());
+        lines.push_back(std::move(line));
+      }
+    RadiographView& canvas = panes_[std::size_t(view)]->view();
+    canvas.setLines(std::move(lines));
+    canvas.setMarks(std::move(marks), selected);
+    canvas.setPlacing(!selected.empty() && !findSighting(c, selected, view));
+    if (const Sighting* own = findSighting(c, selected, view)) canvas.reveal({own->uv_px.x(), own->uv_px.y()});
+  }
+}
+
+QString LandmarksPage::titleOfLandmark(const std::string& name) const {
+  for (const auto& landmark : protocol_)
+    if (landmark.name == name) return QString::fromStdString(landmark.title);
+  return readableName(name);
+}
+
+void LandmarksPage::refreshCard() {
+  const Case& c = shownCase();
+  const std::string& name = workspace().view().landmark();
+  card_title_->setText(name.empty() ? tr("No landmark chosen") : titleOfLandmark(name));
+  QStringList lines;
+  for (const auto& landmark : protocol_)
+    if (landmark.name == name && !landmark.hint.empty()) lines << QString::fromStdString(landmark.hint);
+  bool any = false;
+  for (int view = 0; view < 2; ++view) {
+    const Sighting* s = findSighting(c, name, view);
+    any |= s != nullptr;
+    const QString where = view == 0 ? tr("Frontal") : tr("Lateral");
+    lines << (s ? tr("%1: %2, %3 px  ± %4")
+                      .arg(where, figure(s->uv_px.x(), 1), figure(s->uv_px.y(), 1), figure(s->sigma_px, 1))
+                : tr("%1: not placed").arg(where));
+  }
+  const auto found = findings_.find(name);
+  if (found != findings_.end() && std::isfinite(found->second.sd_mm))
+    lines << tr("Residual %1 px, position ± %2 mm")
+                 .arg(figure(found->second.residual_px, 2), figure(found->second.sd_mm, 2));
+  else if (!c.rig && any)
+    lines << tr("Calibrate to see lines and residuals.");
+  card_text_->setText(lines.join('\n'));
+  remove_->setEnabled(any);
+}
+
+void LandmarksPage::importSightings(const std::filesystem::path& file) {
+  workspace().document().edit(tr("Import sightings"), [&](Case& c) { c.sightings = loadSightings(file); });
+}
+
+void LandmarksPage::exportSightings(const std::filesystem::path& file) {
+  try {
+    saveSightings(shownCase().sightings, file);
+    emit workspace().notice(tr("Sightings written"));
+  } catch (const InputError& error) {
+    emit workspace().problem(QString::fromUtf8(error.what()));
+  }
+}
+
+}  // namespace sinew

@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/widgets/stages/stage_page.h"
+#include "core/skeleton/fit/landmark_protocol.h"
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
+class QToolButton;
+
+namespace sinew {
+
+class RadiographPane;
+
+/// Placing landmarks in both radiographs: click places, drag moves (one undo step on release), Delete removes; the
+/// other view shows where the same point must lie; residuals follow the hand.
+class LandmarksPage : public StagePage {
+  Q_OBJECT
+ public:
+  explicit LandmarksPage(Workspace& workspace);
+
+  void importSightings(const std::filesystem::path& file);
+  void exportSightings(const std::filesystem::path& file);
+  /// The next landmark of the list that is not placed in both views, after the selected one.
+  void selectNextMissing();
+
+ protected:
+  void refresh() override;
+  void refreshPreview() override { refreshFindings(); }
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  struct Finding {
+    bool seen[2] = {false, false};
+    double residual_px = std::numeric_limits<double>::quiet_NaN();
+    double sd_mm = std::numeric_limits<double>::quiet_NaN();
+    std::array<Eigen::Vector2d, 2> residual;
+  };
+  void connectPane(RadiographPane& pane);
+  void buildList(QWidget& side);
+  void refreshNames();
+  void refreshFindings();
+  void refreshMarks();
+  void refreshCard();
+  void filterRows();
+  void step(int direction);
+  void removeSelected(bool both_views);
+  void place(int view, const std::string& name, const QPointF& uv_px);
+
+  QString titleOfLandmark(const std::string& name) const;
+
+  std::vector<ProtocolLandmark> protocol_;
+  std::vector<std::string> names_;
+  std::map<std::string, Finding> findings_;
+  std::array<RadiographPane*, 2> panes_;
+  QTableWidget* table_;
+  QLineEdit* search_;
+  QLabel *progress_, *card_title_, *card_text_, *rms_;
+  QPushButton* remove_;
+  int last_view_ = 0;  ///< the one that was used last: Delete works there
+};
+
+}  // namespace sinew
