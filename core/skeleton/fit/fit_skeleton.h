@@ -27,6 +27,9 @@ struct ShapePrior {
   std::string parameter;  ///< of shapeParameterNames()
   double mean = 0, sd = 1;
   std::string source;
+  /// What a deformity clinic sees and a body without deformity has not (or hardly): the fit allows for it, a patient
+  /// who is drawn without deformity stays at the reference.
+  bool deformity = false;
 };
 /// Reads clinical/shape_priors.json (angles in degrees there, radians here).
 std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_dir);

@@ -12,7 +12,7 @@ namespace sinew {
 /// Every unknown of a body as one vector z of standardized deviations from the population: size, the shape
 /// parameters, the entries of q. Prior of entry i: Gaussian with mean 0 and SD 1 / prior_weight[i]; almost flat for
 /// the root.
-///   shape ratio = size * (mean + sd z),   shape angle = mean + sd z,   q = q_start + sd z
+///   shape ratio or length = size * (mean + sd z),   shape angle = mean + sd z,   q = q_start + sd z
 class BodyParameters {
  public:
   BodyParameters(const Skeleton& skeleton, std::span<const ShapePrior> priors);

@@ -25,7 +25,11 @@ std::vector<double> mildShape(unsigned seed) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> uniform{-1, 1};
   auto values = toVector(ShapeParameters{});
-  for (double& v : values) v = v == 0 ? 12 * kDeg * uniform(random) : 1 + 0.25 * uniform(random);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const ShapeUnit unit = shapeUnit(shapeParameterNames()[k]);
+    const double u = uniform(random);
+    values[k] = unit == ShapeUnit::Angle ? 12 * kDeg * u : unit == ShapeUnit::Length ? 0.012 * u : 1 + 0.25 * u;
+  }
   return values;
 }
 
@@ -118,7 +122,9 @@ TEST(Undeform, RefusesWhatHasNoOrigin) {
 std::pair<double, double> extremesOf(const std::string& name) {
   if (name.ends_with(".torsion")) return {-60 * kDeg, 60 * kDeg};
   if (name.ends_with(".bend")) return {-40 * kDeg, 40 * kDeg};
-  if (name.ends_with(".neck_shaft") || name.ends_with(".varus")) return {-10 * kDeg, 10 * kDeg};
+  if (shapeUnit(name) == ShapeUnit::Angle) return {-10 * kDeg, 10 * kDeg};
+  if (name.ends_with(".neck_length")) return {-0.005, 0.005};  // 10 mm of a neck of 0.4 of its size are half of it
+  if (shapeUnit(name) == ShapeUnit::Length) return {-0.1, 0.1};
   return {0.4, 3};
 }
 
