@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
@@ -9,8 +8,10 @@
 #include "core/error.h"
 #include "core/geometry/view.h"
 #include "core/job.h"
+#include "core/skeleton/fit/bone_figure.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/shape.h"
+#include "core/skeleton/shape/shape_priors.h"
 
 namespace sinew {
 
@@ -22,23 +23,13 @@ struct LandmarkObservation {
   double sigma_px = 1;
 };
 
-/// Population prior of one shape parameter.
-struct ShapePrior {
-  std::string parameter;  ///< of shapeParameterNames()
-  double mean = 0, sd = 1;
-  std::string source;
-  /// What a deformity clinic sees and a body without deformity has not (or hardly): the fit allows for it, a patient
-  /// who is drawn without deformity stays at the reference.
-  bool deformity = false;
-};
-/// Reads clinical/shape_priors.json (angles in degrees there, radians here).
-std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_dir);
-
 struct FitOptions {
   int max_iterations = 100;
   double robust_loss_sigma = 3;     ///< Huber: residuals beyond this many sigma count linearly
   double gross_error_sigma = 8;     ///< what lies farther out after that is left out, named, and fitted without
   double undetermined_ratio = 0.9;  ///< a parameter whose SD stays above this share of its prior is undetermined
+  /// Landmarks that could still be picked (the protocol's): SkeletonFit::advice says which of them would help.
+  std::vector<std::string> offered_landmarks;
 };
 
 struct LandmarkResidual {
@@ -48,16 +39,6 @@ struct LandmarkResidual {
   double sigmas = 0;
 };
 
-/// A clinical figure of the fitted skeleton with its 95 % interval.
-struct BoneFigure {
-  std::string quantity;  ///< "femur_length", "tibial_torsion", ...
-  std::string side;      ///< "r", "l" or ""
-  std::string unit;      ///< "mm" or "deg"
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double lower95 = std::numeric_limits<double>::quiet_NaN(), upper95 = std::numeric_limits<double>::quiet_NaN();
-  bool determined = false;  ///< false: the images do not say, the value is the prior's
-};
-
 struct SkeletonFit {
   Outcome outcome = Outcome::NotRun;
   ShapeParameters shape;
@@ -65,6 +46,8 @@ struct SkeletonFit {
   std::vector<LandmarkResidual> residuals;
   double rms_px = std::numeric_limits<double>::quiet_NaN();
   std::vector<BoneFigure> figures;
+  std::vector<OutsideBone> outside;       ///< bones outside the model's family of shapes, the worst first
+  std::vector<FigureAdvice> advice;       ///< for the figures that are not determined, if landmarks were offered
   std::vector<std::string> undetermined;  ///< shape parameters and coordinates that stayed at the prior
   Warnings warnings;                      ///< worst offenders, unknown landmarks, ...
 };

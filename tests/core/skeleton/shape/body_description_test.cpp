@@ -68,15 +68,26 @@ TEST(BodyDescription, FlatAndNestedFieldsAreTheSame) {
 TEST(BodyDescription, ReadsEveryParameterInItsOwnUnit) {
   for (const auto& parameter : shapeParameterNames()) {
     const auto reference = toVector(ShapeParameters{});
-    auto values = reference;
     const std::size_t i =
         std::size_t(std::ranges::find(shapeParameterNames(), parameter) - shapeParameterNames().begin());
-    const bool angle = reference[i] == 0;
-    values[i] = angle ? 10 * kDeg : 1.25;
-    const BodyDescription body = read("{\"" + parameter + (angle ? "_deg\": 10}" : "\": 1.25}"));
-    EXPECT_EQ(body.shape, shapeFromVector(values)) << parameter;
-    if (angle) {
-      EXPECT_EQ(toVector(read("{\"" + parameter + "_rad\": 0.1}").shape)[i], 0.1) << parameter;
+    const auto given = [&](const std::string& unit, const std::string& number) {
+      return toVector(read("{\"" + parameter + unit + "\": " + number + "}").shape)[i];
+    };
+    switch (shapeUnit(parameter)) {
+      case ShapeUnit::Ratio:
+        EXPECT_EQ(reference[i], 1) << parameter;
+        EXPECT_EQ(given("", "1.25"), 1.25) << parameter;
+        break;
+      case ShapeUnit::Angle:
+        EXPECT_EQ(reference[i], 0) << parameter;
+        EXPECT_NEAR(given("_deg", "10"), 10 * kDeg, 1e-15) << parameter;
+        EXPECT_EQ(given("_rad", "0.1"), 0.1) << parameter;
+        break;
+      case ShapeUnit::Length:
+        EXPECT_EQ(reference[i], 0) << parameter;
+        EXPECT_NEAR(given("_mm", "12"), 0.012, 1e-15) << parameter;
+        EXPECT_EQ(given("_m", "0.012"), 0.012) << parameter;
+        break;
     }
   }
 }
@@ -97,7 +108,8 @@ TEST(BodyDescription, SavedAndLoadedIsTheSame) {
   const test::TemporaryFolder folder;
   BodyDescription body = read(R"({
     "name": "test", "about": "for a test", "pelvis.width": 1.1, "trunk": {"elongation": 0.9, "bend_deg": 12, "mass": 1.2},
-    "femur": {"elongation": 1.3, "neck_shaft_deg": 5}, "tibia_r": {"torsion_deg": 7}, "tibia_l": {"torsion_deg": -7},
+    "femur": {"elongation": 1.3, "neck_shaft_deg": 5}, "tibia_r": {"torsion_deg": 7}, "tibia_l": {"torsion_deg": -7, "varus_deg": 12},
+    "hip_l": {"lateral_mm": 15, "superior_mm": 8}, "femur_r.neck_length_mm": -12, "femur_l.bow_sagittal_deg": 9,
     "hand_l.scale": 0.7, "ulna": {"mass_ratio": 1.4}, "humerus_l.mass": 0.6,
     "strength": {"quadriceps": 0.8, "soleus_medial_r": 1.5}, "sources": {"femur.elongation": "a guess"}})");
   saveBodyDescription(body, folder.path() / "body.json");
@@ -113,7 +125,9 @@ TEST(BodyDescription, WrongNamesAreAnsweredWithTheNearest) {
   EXPECT_THAT(complaint(R"({"femur": {"elongaton": 1}})"),
               AllOf(HasSubstr("'femur.elongaton'"), HasSubstr("nearest: femur.elongation")));
   EXPECT_THAT(complaint(R"({"femur.torsion": 10})"), HasSubstr("femur.torsion_deg"));  // an angle without a unit
-  EXPECT_THAT(complaint(R"({"tibia.varus_deg": 1})"), HasSubstr("expected a field of a body"));
+  EXPECT_THAT(complaint(R"({"humerus.varus_deg": 1})"), HasSubstr("expected a field of a body"));
+  EXPECT_THAT(complaint(R"({"hip_r.lateral": 10})"), HasSubstr("hip_r.lateral_mm"));  // a length without a unit
+  EXPECT_THAT(complaint(R"({"hip_r.lateral_deg": 10})"), HasSubstr("hip_r.lateral_mm"));
   EXPECT_THAT(complaint(R"({"patella.mass": 1})"), HasSubstr("expected a field of a body"));
   EXPECT_THAT(complaint(R"({"sources": {"femrus": "x"}})"), HasSubstr("femur"));
 }
