@@ -10,10 +10,11 @@
 #include <limits>
 
 #include "core/ceres_job_internal.h"
-#include "core/skeleton/fit/bone_figures_internal.h"
+#include "core/skeleton/fit/figure_report_internal.h"
 #include "core/skeleton/fit/fit_report_internal.h"
 #include "core/skeleton/fit/fit_residuals.h"
 #include "core/skeleton/fit/fit_start_internal.h"
+#include "core/skeleton/fit/outside_bones_internal.h"
 
 namespace sinew {
 namespace {
@@ -124,14 +125,56 @@ class SkeletonFitter {
     constexpr double kLargestShare = 0.15;
     const std::vector<double> sigmas = distances_sigma();
     const double limit = options_.gross_error_sigma * std::max(1.0, median(sigmas) / kMedianOfInliers);
-    std::vector<std::size_t> gross;
-    for (std::size_t i = 0; i < sigmas.size(); ++i)
-      if (sigmas[i] > limit) gross.push_back(i);
-    std::ranges::sort(gross, [&](std::size_t a, std::size_t b) { return sigmas[a] > sigmas[b]; });
+    std::vector<std::size_t> gross =
+        slipsAmong(reference_, sightings_, sigmas, limit, contradictions(limit / options_.gross_error_sigma));
     const double most = kLargestShare * static_cast<double>(sigmas.size());
     if (static_cast<double>(gross.size()) > most) gross.resize(static_cast<std::size_t>(most));
     for (const std::size_t i : gross) sightings_.items[i].left_out = true;
     return !gross.empty();
+  }
+
+  /// All picks of every landmark that are used; empty for those of which none is.
+  std::vector<LandmarkPicks> picksByLandmark() const {
+    std::vector<LandmarkPicks> picks(sightings_.landmarks.size());
+    for (std::size_t l = 0; l < picks.size(); ++l) {
+      std::vector<const UsableSighting*> seen;
+      for (const auto& s : sightings_.items)
+        if (s.point == static_cast<int>(l) && !s.left_out) seen.push_back(&s);
+      picks[l].landmark = sightings_.landmarks[l];
+      picks[l].uv_px.resize(2 * static_cast<Eigen::Index>(seen.size()));
+      picks[l].covariance_px2 = Eigen::MatrixXd::Zero(picks[l].uv_px.size(), picks[l].uv_px.size());
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        picks[l].views.push_back(seen[k]->view);
+        picks[l].uv_px.segment<2>(2 * static_cast<Eigen::Index>(k)) = seen[k]->uv_px;
+        picks[l].covariance_px2.diagonal().segment<2>(2 * static_cast<Eigen::Index>(k)).setConstant(
+            seen[k]->sigma_px * seen[k]->sigma_px);
+      }
+    }
+    return picks;
+  }
+
+  ImageOfPoint image() const {
+    return [views = views_](int, int view, const Eigen::Vector3d& p, Eigen::Vector2d& uv_px,
+                            Eigen::Matrix<double, 2, 3>& by_point) {
+      using Jet = ceres::Jet<double, 3>;
+      Eigen::Matrix<Jet, 2, 1> uv;
+      if (!project<Jet>(views[view], Vector3<Jet>{Jet(p.x(), 0), Jet(p.y(), 1), Jet(p.z(), 2)}, uv)) return false;
+      for (int i = 0; i < 2; ++i) uv_px[i] = uv[i].a, by_point.row(i) = uv[i].v;
+      return true;
+    };
+  }
+
+  /// Landmarks whose own picks do not meet, by more than `scale` times what is stated lets expect.
+  std::vector<bool> contradictions(double scale) const {
+    constexpr double kContradicts_sigma = 5;
+    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
+    std::vector<bool> contradicts;
+    const auto picks = picksByLandmark();
+    for (std::size_t l = 0; l < picks.size(); ++l) {
+      const auto point = pickedPoint(picks[l], image(), points[l]);
+      contradicts.push_back(point && point->disagreement > kContradicts_sigma * scale);
+    }
+    return contradicts;
   }
 
   /// Some steps towards the solution; how they end does not matter yet.
@@ -153,8 +196,9 @@ class SkeletonFitter {
                                new ceres::HuberLoss{settings.loss_sigma}, shared.x());
     }
     std::vector<double> weights;
-    for (const int i : active) weights.push_back(body_.priorWeight(i));
+    for (const int i : active) weights.push_back(body_.isDeformable(i) ? 0 : body_.priorWeight(i));
     problem.AddResidualBlock(new PriorCost{weights}, nullptr, shared.x());
+    addDeformityPriors(problem, active, shared.x());
     for (int i = 0; i < shared.activeCount(); ++i) {
       problem.SetParameterLowerBound(shared.x(), i, body_.lower(active[i]));
       problem.SetParameterUpperBound(shared.x(), i, body_.upper(active[i]));
@@ -171,6 +215,17 @@ class SkeletonFitter {
     const Outcome outcome = outcomeOf(summary);
     if (outcome == Outcome::Converged) rememberCovariance(problem, active);
     return outcome;
+  }
+
+  /// Deformities are rare and large: their priors are Gaussian for most bodies and no more than linear beyond, so that
+  /// a bone bent by many standard deviations is not pulled back by as many.
+  void addDeformityPriors(ceres::Problem& problem, const std::vector<int>& active, double* x) const {
+    constexpr double kUsual_sd = 1.5;
+    for (std::size_t k = 0; k < active.size(); ++k)
+      if (body_.isDeformable(active[k]))
+        problem.AddResidualBlock(
+            new OnePriorCost{static_cast<int>(k), static_cast<int>(active.size()), body_.priorWeight(active[k])},
+            new ceres::HuberLoss{kUsual_sd}, x);
   }
 
   /// Inverse of the normal matrix at the solution, priors included: the Laplace approximation of the posterior.
@@ -195,9 +250,11 @@ class SkeletonFitter {
     fit.posture = Eigen::Map<Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
     const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
     describeResiduals(sightings_, views_, points, fit);
-    const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
     fit.undetermined = namesOf(reference_, body_, covariance_, options_.undetermined_ratio);
-    fit.figures = figuresWithIntervals(reference_, body_, z_, covariance_, undetermined);
+    FitEvidence evidence{reference_,         body_,   z_, covariance_, picksByLandmark(), image(),
+                         options_.offered_landmarks, static_cast<int>(views_.size())};
+    std::erase_if(evidence.picks, [](const LandmarkPicks& picks) { return picks.views.empty(); });
+    judgeFigures(evidence, fit);
     warnOfBounds(body_, z_, fit.warnings);
   }
 

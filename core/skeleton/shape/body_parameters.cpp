@@ -25,9 +25,11 @@ BodyParameters::BodyParameters(const Skeleton& skeleton, std::span<const ShapePr
   lower_.assign(count, -kFarthest_sd);
   upper_.assign(count, kFarthest_sd);
   is_angle_.resize(shape_count_);
+  deformable_.assign(count, false);
   mean_[kSize] = 1;
   for (int i = 0; i < shape_count_; ++i) {
     is_angle_[i] = isShapeAngle(names[i]);
+    deformable_[kShapeBegin + i] = shapeUnit(names[i]) != ShapeUnit::Ratio;
     mean_[kShapeBegin + i] = shapeUnit(names[i]) == ShapeUnit::Ratio ? 1 : 0;
   }
   for (const auto& prior : priors) {
