@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "clinical/case/case_io.h"
+#include "clinical/pipeline/case_fit.h"
 #include "clinical/pipeline/stage_runs.h"
 #include "core/file.h"
 #include "core/retarget/prepared/reference.h"
@@ -16,12 +17,6 @@ constexpr const char* kMusculatureFolder = "results/musculature/";
 constexpr const char* kModelPath = "results/model.json";
 constexpr const char* kReportPath = "results/report.pdf";
 constexpr double kReferenceMass_kg = 75;
-
-std::vector<LandmarkObservation> observationsOf(const std::vector<Sighting>& sightings) {
-  std::vector<LandmarkObservation> list;
-  for (const auto& s : sightings) list.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-  return list;
-}
 
 std::string skeletonSummary(const SkeletonFit& fit) {
   std::string text = "RMS " + rounded(fit.rms_px, 2) + " px";
@@ -86,9 +81,7 @@ StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   if (!c.rig->patient_aligned)
     run.warnings.push_back({"not_patient_aligned", "the world frame of the geometry is not the patient's"});
-  const auto observations = observationsOf(c.sightings);
-  const auto priors = loadShapePriors(context.resource_dir);
-  c.skeleton = fitSkeleton(context.reference->skeleton, c.rig->views, observations, priors, {}, job);
+  c.skeleton = fitCaseSkeleton(c, context.reference->skeleton, context.resource_dir, job);
   addWarnings(run.warnings, c.skeleton->warnings);
   run.outcome = c.skeleton->outcome;
   run.summary = skeletonSummary(*c.skeleton);

@@ -151,6 +151,27 @@ TEST(BodyDescription, TheSameThingTwiceIsRefused) {
   EXPECT_THAT(complaint(R"({"femur": {"mass": 1, "mass_ratio": 2}})"), HasSubstr("a second one"));
 }
 
+TEST(ShapeJson, OlderFilesWithoutTheBendsOfTheLegsStillLoadAndMeanNone) {
+  ShapeParameters shape;
+  shape.sides[0].femur.varus_rad = 0.2;
+  shape.sides[1].tibia.elongation = 0.9;
+  Json json = shapeToJson(shape);
+  for (const std::string side : {"r", "l"})
+    for (const char* later :
+         {"femur.procurvatum_rad", "femur.neck_length_m", "femur.neck_varus_rad", "femur.neck_retroversion_rad",
+          "femur.bow_frontal_rad", "femur.bow_sagittal_rad", "tibia.varus_rad", "tibia.procurvatum_rad",
+          "tibia.distal_varus_rad", "tibia.distal_procurvatum_rad", "hip.lateral_m", "hip.superior_m",
+          "hip.anterior_m"}) {
+      std::string name = later;
+      name.insert(name.find('.'), "_" + side);
+      ASSERT_EQ(json.erase(name), 1u) << name;
+    }
+  EXPECT_EQ(json.size(), 48u);  // what the first files had
+  EXPECT_EQ(shapeFromJson(JsonReader{json, "old.json"}), shape);
+  json.erase("femur_r.varus_rad");
+  EXPECT_THROW(shapeFromJson(JsonReader{json, "old.json"}), InputError);
+}
+
 TEST(ShapePresets, AreThePapersTable) {
   struct Row {
     const char* name;
