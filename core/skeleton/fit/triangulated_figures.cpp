@@ -107,8 +107,9 @@ std::optional<PickedPoint> pickedPoint(const LandmarkPicks& picks, const ImageOf
       by_point.middleRows<2>(2 * k) = derivative;
     }
     const Eigen::Matrix3d normal = by_point.transpose() * weight * by_point;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes{normal, Eigen::EigenvaluesOnly};
+    if (!(axes.eigenvalues()[0] > 1 / (kOpen_m * kOpen_m))) return std::nullopt;
     point.covariance_W_m2 = normal.inverse();
-    if (!(point.covariance_W_m2.trace() < kOpen_m * kOpen_m)) return std::nullopt;
     point.by_picks = point.covariance_W_m2 * by_point.transpose() * weight;
     const Vector3d step = point.by_picks * residual_px;
     point.p_W += step;

@@ -104,7 +104,7 @@ inline const Eigen::Vector3d& neckVector() {
   static const Eigen::Vector3d p_HN{-0.009, -0.040, 0.0425};
   return p_HN;
 }
-constexpr double kNeckLength_m = 0.0590529;  // its norm
+constexpr double kNeckLength_m = 0.05905294234837076;  // its norm
 constexpr double kNeckBlend_m = 0.046;       // along the neck from the head's centre: what lies farther moves whole
 
 /// How the base of the neck moves against the head [m, reference] when the neck is longer and bent.

@@ -14,6 +14,7 @@ namespace sinew {
 namespace {
 
 using testing::Contains;
+using testing::EndsWith;
 using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
@@ -102,7 +103,7 @@ TEST_F(JudgedFigures, ABoneOutsideTheModelIsNamedAndItsFiguresAreThoseOfThePicks
   const auto& said = *std::ranges::find(result.warnings, "outside_model", &Warning::code);
   EXPECT_THAT(said.message, HasSubstr("pelvis is outside the model"));
   EXPECT_THAT(said.message, HasSubstr(result.outside.front().landmark));
-  for (const auto& warning : result.warnings) EXPECT_THAT(warning.message, Not(HasSubstr("was left out")));
+  for (const auto& warning : result.warnings) EXPECT_THAT(warning.message, Not(EndsWith("was left out")));
 
   const BoneFigure& tilt = figure(result, "pelvic_tilt");
   EXPECT_TRUE(tilt.triangulated);
@@ -134,7 +135,7 @@ TEST_F(JudgedFigures, OneSlipIsLeftOutButSeveralLandmarksOfABoneAreNot) {
 
 TEST_F(JudgedFigures, AMisplacedJointCentreThatNoShapeFollowsIsTakenFromThePicks) {
   auto picks = seen(protocol);
-  displace(picks, "sacral_endplate_center", {-0.02, 0, 0});
+  displace(picks, "sacral_endplate_center", {-0.02, 0, 0.015});  // its picks agree in both views
   const SkeletonFit result = fit(picks);
   const BoneFigure& tilt = figure(result, "pelvic_tilt");
   EXPECT_TRUE(tilt.triangulated);
