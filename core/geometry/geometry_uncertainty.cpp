@@ -2,8 +2,8 @@
 
 namespace sinew {
 
-ViewErrors<double> standardDeviations(const GeometryUncertainty& u) {
-  ViewErrors<double> sd;
+Eigen::Matrix<double, kViewErrors, 1> standardDeviations(const GeometryUncertainty& u) {
+  Eigen::Matrix<double, kViewErrors, 1> sd;
   sd << u.scale, u.image_shift_px, u.image_shift_px, u.body_distance_m, u.turn_rad, u.turn_rad, u.turn_rad, u.k1;
   return sd;
 }

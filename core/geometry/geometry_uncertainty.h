@@ -18,33 +18,14 @@ struct GeometryUncertainty {
   friend bool operator==(const GeometryUncertainty&, const GeometryUncertainty&) = default;
 };
 
-/// Errors of one view: scale, shift along u and v [px], distance [m], turn about x, y, z of C [rad], k1.
+/// Errors of one view, in this order: scale, shift along u and v [px], distance [m], turn about x, y, z of C [rad],
+/// k1.
+///   p_C = R_CW pivot_W + p_CW + exp(turn) R_CW (p_W - pivot_W) + distance z
+///   uv  = uv' + scale (uv' - principal point) + shift,   uv' the projection of p_C with k1 added to the view's
 inline constexpr int kViewErrors = 8;
-template <class T>
-using ViewErrors = Eigen::Matrix<T, kViewErrors, 1>;
 enum ViewError { kScaleError, kShiftError, kDistanceError = 3, kTurnError, kDistortionError = 7 };
 
 /// Their standard deviations; common_distance_m is not among them.
-ViewErrors<double> standardDeviations(const GeometryUncertainty& uncertainty);
-
-/// Image of a point in a view that has these errors; it turns about `pivot_W`. With errors of 0 the same as
-/// project(). Returns false, and leaves `uv_px` alone, for a point behind the source.
-template <class T>
-bool projectWithErrors(const View& view, const ViewErrors<T>& errors, const Eigen::Vector3d& pivot_W,
-                       const Vector3<T>& p_W, Eigen::Matrix<T, 2, 1>& uv_px) {
-  const Vector3<T> arm_C = view.R_CW.cast<T>() * (p_W - pivot_W.cast<T>());
-  Vector3<T> p_C = (view.R_CW * pivot_W + view.p_CW).cast<T>() +
-                   rotationFromVector<T>(Vector3<T>{errors.template segment<3>(kTurnError)}) * arm_C;
-  p_C.z() += errors[kDistanceError];
-  if (!std::visit([&](const auto& p) { return detail::project<T>(p, p_C, uv_px); }, view.projection)) return false;
-  const Eigen::Vector2d middle_px = principalPoint_px(view);
-  if (const auto* cone = std::get_if<ConeBeam>(&view.projection)) {
-    const T x = p_C.x() / p_C.z(), y = p_C.y() / p_C.z(), bent = errors[kDistortionError] * (x * x + y * y);
-    uv_px.x() += T(cone->fx_px) * bent * x;  // k1 enters the projection linearly
-    uv_px.y() += T(cone->fy_px) * bent * y;
-  }
-  uv_px += errors[kScaleError] * (uv_px - middle_px.cast<T>()) + errors.template segment<2>(kShiftError);
-  return true;
-}
+Eigen::Matrix<double, kViewErrors, 1> standardDeviations(const GeometryUncertainty& uncertainty);
 
 }  // namespace sinew

@@ -1,5 +1,6 @@
 #include "core/skeleton/fit/fit_movement_internal.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,56 @@ bool isMoved(const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance)
   return freedom > 0 && sum > rarelyExceeded(freedom);
 }
 
+/// A pattern of bending: coordinates with their shares.
+struct BendPattern {
+  std::vector<std::string> joints;
+  std::map<std::string, double> shares;  ///< by coordinate
+};
+
+std::vector<BendPattern> bendPatterns() {
+  std::vector<BendPattern> patterns;
+  for (const char* single : {"hip_flexion", "hip_adduction", "hip_internal_rotation", "knee_flexion",
+                             "ankle_dorsiflexion", "ankle_inversion", "ankle_internal_rotation"})
+    for (const std::string side : {"_r", "_l"}) {
+      const std::string name = single;
+      patterns.push_back({{name.substr(0, name.find('_')) + side}, {{name + side, 1}}});
+    }
+  const auto crouch = [](const std::string& side, std::map<std::string, double>& shares) {
+    shares["hip_flexion" + side] = shares["ankle_dorsiflexion" + side] = 0.5;
+    shares["knee_flexion" + side] = 1;
+  };
+  for (const std::string side : {"_r", "_l"}) {
+    BendPattern leg{{"knee" + side}, {}};
+    crouch(side, leg.shares);
+    patterns.push_back(leg);
+  }
+  BendPattern both{{"knee_r", "knee_l"}, {}};
+  crouch("_r", both.shares);
+  crouch("_l", both.shares);
+  patterns.push_back(both);
+  patterns.push_back({{"knee_r", "knee_l"}, {{"knee_flexion_r", 1}, {"knee_flexion_l", 1}}});
+  return patterns;
+}
+
+/// The pattern as a direction among the changes of an exposure, per radian; empty if a share of it cannot be seen.
+Eigen::VectorXd directionOf(const BendPattern& pattern, const Skeleton& skeleton, const Nuisances& nuisances,
+                            int exposure) {
+  const auto changes = nuisances.jointChanges(exposure);
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(changes.size()));
+  for (const auto& [name, share] : pattern.shares) {
+    const Coordinate& coordinate = skeleton.coordinates[skeleton.coordinateIndex(name)];
+    bool seen = false;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const double along = changes[i].joint == coordinate.joint ? changes[i].axis.dot(coordinate.axis) : 0;
+      if (std::abs(along) < 1e-9) continue;
+      direction[static_cast<Eigen::Index>(i)] += share * along / nuisances.jointSd_rad();
+      seen = true;
+    }
+    if (!seen) return {};
+  }
+  return direction;
+}
+
 std::string withInterval(const ExposureMovement::Amount& amount, int decimals, const std::string& unit) {
   const auto text = [&](double value) {
     char digits[32];
@@ -63,6 +114,29 @@ std::string withInterval(const ExposureMovement::Amount& amount, int decimals, c
 }
 
 }  // namespace
+
+LegBend likeliestBend(const Skeleton& skeleton, const Nuisances& nuisances, const Eigen::VectorXd& y,
+                      const Eigen::MatrixXd& covariance) {
+  LegBend likeliest;
+  const auto patterns = bendPatterns();
+  for (int e = 1; e < nuisances.exposureCount(); ++e) {
+    std::vector<int> entries;
+    for (const auto& change : nuisances.jointChanges(e)) entries.push_back(change.y);
+    if (entries.empty()) continue;
+    // With a prior of SD 1, the images alone say information P^-1 - 1 and score P^-1 y at y = 0.
+    const Eigen::LLT<Eigen::MatrixXd> root{covariance(entries, entries)};
+    const Eigen::VectorXd score = root.solve(y(entries));
+    for (const BendPattern& pattern : patterns) {
+      const Eigen::VectorXd direction = directionOf(pattern, skeleton, nuisances, e);
+      if (direction.size() == 0) continue;
+      const double information = direction.dot(root.solve(direction)) - direction.squaredNorm();
+      if (!(information > 1e-6 * direction.squaredNorm())) continue;
+      const double along = direction.dot(score), sigmas = std::abs(along) / std::sqrt(information);
+      if (sigmas > likeliest.sigmas) likeliest = {pattern.joints, along / information, sigmas};
+    }
+  }
+  return likeliest;
+}
 
 std::vector<ExposureMovement> describeMovements(const Skeleton& skeleton, std::span<const FitView> views,
                                                 const Nuisances& nuisances, const Eigen::VectorXd& y,

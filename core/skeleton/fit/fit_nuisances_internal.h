@@ -26,9 +26,12 @@ class Nuisances {
   struct JointChange {
     int z = 0, y = 0;
     double ratio = 0;
-    int joint = 0;  ///< of the skeleton
+    int joint = 0;         ///< of the skeleton
+    Eigen::Vector3d axis;  ///< about which it turns, in the joint's frame
   };
   std::span<const JointChange> jointChanges(int exposure) const { return exposures_[exposure].joints; }
+  /// Turn of a joint about the axis of such an entry that has y = 1.
+  double jointSd_rad() const { return prior_.joint_rad; }
   /// The body of an exposure.
   Eigen::VectorXd bodyAt(int exposure, const Eigen::VectorXd& z, const Eigen::VectorXd& y) const;
 
@@ -62,11 +65,34 @@ struct PointImage {
   Eigen::Matrix<double, 2, 3> by_point;
   Eigen::Matrix<double, 2, Nuisances::kLocal> by_local;  ///< by the standardized entries of Nuisances::local()
 };
-/// `pivot_W` is the middle of the body, about which it turns. Returns false for a point behind the source.
-bool imageOf(const FitView& view, const Nuisances::Local& local, const Eigen::VectorXd& y,
-             const Eigen::Vector3d& pivot_W, const Eigen::Vector3d& p_W, PointImage& image);
-/// The same without derivatives.
-std::optional<Eigen::Vector2d> imageOf(const FitView& view, const Nuisances::Local& local, const Eigen::VectorXd& y,
-                                       const Eigen::Vector3d& pivot_W, const Eigen::Vector3d& p_W);
+
+/// A view with its movement and its errors, prepared for many points.
+class DisturbedView {
+ public:
+  /// `pivot_W` is the middle of the body, about which it turns. `view` and `local` are kept by reference.
+  DisturbedView(const FitView& view, const Nuisances::Local& local, const Eigen::VectorXd& y,
+                const Eigen::Vector3d& pivot_W);
+  /// Returns false for a point behind the source.
+  bool image(const Eigen::Vector3d& p_W, PointImage& image) const;
+  std::optional<Eigen::Vector2d> image(const Eigen::Vector3d& p_W) const;
+
+ private:
+  /// exp(v) with its derivatives by the entries of v.
+  struct Turn {
+    Eigen::Matrix3d R;
+    std::array<Eigen::Matrix3d, 3> by_entry;
+    explicit Turn(const Eigen::Vector3d& v_rad);
+  };
+  const View& view_;
+  const Nuisances::Local& local_;
+  Eigen::Vector3d pivot_W_, pivot_C_;
+  Eigen::Matrix<double, Nuisances::kLocal, 1> x_;  ///< the local unknowns in their units
+  Turn body_, frame_;
+  Eigen::Vector2d middle_px_;
+};
+
+/// One of every view.
+std::vector<DisturbedView> disturbedViews(std::span<const FitView> views, const Nuisances& nuisances,
+                                          const Eigen::VectorXd& y, const Eigen::Vector3d& pivot_W);
 
 }  // namespace sinew

@@ -75,6 +75,7 @@ Eigen::VectorXd SharedBody::y() const {
 void SharedBody::PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) {
   if (!new_evaluation_point && !(evaluate_jacobians && points_[0].dp_dz.empty())) return;
   const Eigen::VectorXd z_now = z(), y_now = y();
+  disturbed_ = disturbedViews(model_.views, model_.nuisances, y_now, model_.pivot_W);
   for (std::size_t e = 0; e < points_.size(); ++e)
     if (e == 0 || !shares_posture_[e])
       points_[e] = posePoints(model_.skeleton, model_.body, model_.landmarks,
@@ -92,7 +93,6 @@ LandmarkCost::LandmarkCost(const SharedBody& shared, int point, std::vector<Seen
 bool LandmarkCost::Evaluate(const double* const*, double* residuals, double** jacobians) const {
   const FitModel& model = shared_.model();
   const Eigen::Index rows = num_residuals(), first_nuisance = shared_.activeCount();
-  const Eigen::VectorXd y = shared_.y();
   Eigen::VectorXd difference_px(rows);
   Eigen::MatrixXd by_x;
   const bool wants_jacobian = jacobians && jacobians[0];
@@ -103,13 +103,13 @@ bool LandmarkCost::Evaluate(const double* const*, double* residuals, double** ja
     const Nuisances::Local& local = model.nuisances.local(view);
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
     if (!wants_jacobian) {
-      const auto uv = imageOf(model.views[view], local, y, model.pivot_W, points.p_W[point_]);
+      const auto uv = shared_.view(view).image(points.p_W[point_]);
       if (!uv) return false;
       difference_px.segment<2>(row) = seen_[i].uv_px - *uv;
       continue;
     }
     PointImage image;
-    if (!imageOf(model.views[view], local, y, model.pivot_W, points.p_W[point_], image)) return false;
+    if (!shared_.view(view).image(points.p_W[point_], image)) return false;
     difference_px.segment<2>(row) = seen_[i].uv_px - image.uv_px;
     auto of_sighting = by_x.middleRows<2>(row);
     of_sighting.leftCols(first_nuisance) = -image.by_point * points.dp_dz[point_];

@@ -48,6 +48,7 @@ class SharedBody : public ceres::EvaluationCallback {
   bool nuisancesFree() const { return nuisances_free_; }
   /// Landmarks as posed in an exposure, before the whole body moved.
   const PosedPoints& points(int exposure) const { return points_[shares_posture_[exposure] ? 0 : exposure]; }
+  const DisturbedView& view(int index) const { return disturbed_[index]; }
   /// Column of x that holds this entry of z; -1 if it is not active.
   int columnOf(int z) const { return column_of_[z]; }
 
@@ -63,7 +64,8 @@ class SharedBody : public ceres::EvaluationCallback {
   bool nuisances_free_;
   std::vector<double> x_;
   std::vector<bool> shares_posture_;  ///< by exposure: no joint has moved, none can
-  std::vector<PosedPoints> points_;   ///< by exposure; of those that share a posture the first
+  std::vector<DisturbedView> disturbed_;
+  std::vector<PosedPoints> points_;  ///< by exposure; of those that share a posture the first
 };
 
 /// One sighting among those of a landmark.

@@ -173,13 +173,14 @@ class SkeletonFitter {
   };
   std::vector<SeenResidual> seenResiduals(const PickScale& scale) const {
     const auto points = posedByExposure();
+    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
     const auto frames = framesOfLandmarks();
     std::vector<SeenResidual> list;
     for (const auto& s : sightings_.items) {
       const Eigen::Vector3d& p_W = points[nuisances_->exposureOf(s.view)][s.point];
       SeenResidual seen{std::nullopt, Eigen::Matrix2d::Identity() * std::pow(scale.pick * s.sigma_px, 2)};
       PointImage image;
-      if (imageOf(views_[s.view], nuisances_->local(s.view), y_, pivot_W_, p_W, image)) {
+      if (views[s.view].image(p_W, image)) {
         seen.residual_px = s.uv_px - image.uv_px;
         seen.covariance_px2 +=
             image.by_point * definitionCovariance_W(s.point, frames, scale) * image.by_point.transpose();
@@ -214,6 +215,7 @@ class SkeletonFitter {
   /// Covariance of the sightings of every block at the present solution, by its causes.
   std::vector<LandmarkNoise> noiseOfBlocks() const {
     const auto points = posedByExposure();
+    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
     const auto frames = framesOfLandmarks();
     std::vector<LandmarkNoise> list;
     for (const Block& block : blocks_) {
@@ -224,8 +226,7 @@ class SkeletonFitter {
         const auto& s = sightings_.items[block.items[i]];
         noise.pick.diagonal().segment<2>(2 * i).setConstant(s.sigma_px * s.sigma_px);
         PointImage image;
-        if (imageOf(views_[s.view], nuisances_->local(s.view), y_, pivot_W_,
-                    points[nuisances_->exposureOf(s.view)][s.point], image))
+        if (views[s.view].image(points[nuisances_->exposureOf(s.view)][s.point], image))
           by_point.middleRows<2>(2 * i) = image.by_point;
       }
       noise.definition = by_point * statedDefinition_W(block.point, frames) * by_point.transpose();
@@ -381,6 +382,11 @@ class SkeletonFitter {
       fit.residuals.push_back({sightings_.items[i].landmark, sightings_.items[i].view,
                                seen[i].residual_px.value_or(Eigen::Vector2d::Zero()), distances[i]});
     describeResiduals(sightings_, fit);
+    if (getenv("DBG_BEND")) {
+      const auto b = likeliestBend(reference_, *nuisances_, y_, nuisance_covariance_);
+      fprintf(stderr, "BEND %s%s %.2f deg %.2f sigma pick %.2f\n", b.joints.empty() ? "" : b.joints[0].c_str(),
+              b.joints.size() > 1 ? "+" : "", b.angle_rad * 57.3, b.sigmas, scale_.pick);
+    }
     fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_);
     warnOfMovement(fit.movements, fit.warnings);
     const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
