@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "app/cli/support/commands.h"
-#include "app/plot/svg_plot.h"
+#include "app/plot/paint_figure.h"
 #include "app/plot/svg_to_png.h"
 #include "core/file.h"
 #include "core/foreign/foreign_evaluate.h"
@@ -70,11 +70,13 @@ std::vector<double> inMm(std::vector<double> values) {
 
 std::string curveSvg(const NamedCurve& of) {
   const MotionCurve& c = of.curve;
-  return plotSvg(of.muscle + ", " + of.motion.title + " (" + of.model + ")", of.motion.coordinate + " [deg]",
-                 c.angle_deg,
-                 {{"length [mm]", {{"length", inMm(c.length_m)}}},
-                  {"moment arm [mm]", {{"moment arm", inMm(c.moment_arm_m)}}},
-                  {"force [N]", {{"passive", c.passive_force_N}, {"active, full", c.active_force_N}}}});
+  const auto& x = c.angle_deg;
+  return svgOf({of.muscle + ", " + of.motion.title + " (" + of.model + ")",
+                of.motion.coordinate + " [deg]",
+                {{"length [mm]", {curveOver(x, inMm(c.length_m), "")}},
+                 {"moment arm [mm]", {curveOver(x, inMm(c.moment_arm_m), "")}},
+                 {"force [N]",
+                  {curveOver(x, c.passive_force_N, "passive"), curveOver(x, c.active_force_N, "active, full", 1)}}}});
 }
 
 /// The curve in the form that the file name asks for.
