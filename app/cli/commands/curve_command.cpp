@@ -1,4 +1,5 @@
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "app/cli/support/commands.h"
@@ -54,11 +55,9 @@ std::string curveCsv(const MotionCurve& c) {
   std::string csv =
       "theta,angle_deg,length_m,moment_arm_m,normalized_fiber_length,passive_force_N,active_force_N,full_torque_Nm\n";
   for (std::size_t i = 0; i < c.theta.size(); ++i) {
-    char line[256];
-    std::snprintf(line, sizeof line, "%.6g,%.6g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g\n", c.theta[i], c.angle_deg[i],
-                  c.length_m[i], c.moment_arm_m[i], c.normalized_fiber_length[i], c.passive_force_N[i],
-                  c.active_force_N[i], c.full_torque_Nm[i]);
-    csv += line;
+    csv += fmt::format("{:.6g},{:.6g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.theta[i], c.angle_deg[i],
+                       c.length_m[i], c.moment_arm_m[i], c.normalized_fiber_length[i], c.passive_force_N[i],
+                       c.active_force_N[i], c.full_torque_Nm[i]);
   }
   return csv;
 }
