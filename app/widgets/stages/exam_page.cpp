@@ -320,7 +320,8 @@ void ExamPage::refreshPlot() {
   std::vector<PlotCurve> curves;
   const ExamComparison* result = comparisonOf(c, id, side);
   if (result && !model->length_factors.empty()) {
-    const Model before = modelBeforeExam(c, *workspace().reference(), workspace().document().folder());
+    const Model before =
+        modelBeforeExam(c, *workspace().reference(), workspace().document().folder(), workspace().resourceDir());
     curves.push_back({tr("before"), passiveMomentCurve(before, test, side), colour::kMuted, true});
   }
   curves.push_back(
