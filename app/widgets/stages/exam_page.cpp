@@ -320,7 +320,8 @@ void ExamPage::refreshPlot() {
   FigurePanel panel{text(tr("passive moment, N m"))};
   const ExamComparison* result = comparisonOf(c, id, side);
   if (result && !model->length_factors.empty()) {
-    const Model before = modelBeforeExam(c, *workspace().reference(), workspace().document().folder());
+    const Model before =
+        modelBeforeExam(c, *workspace().reference(), workspace().document().folder(), workspace().resourceDir());
     panel.curves.push_back({text(tr("before")), passiveMomentCurve(before, test, side), LineRole::Before});
   }
   panel.curves.push_back(
