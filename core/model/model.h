@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/muscle/musculature.h"
+#include "core/passive/passive_moment.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/body_description.h"
 #include "core/skeleton/shape/shape.h"
@@ -30,6 +31,7 @@ struct Model {
   ShapeParameters shape;  ///< relative to the reference
   Skeleton skeleton;      ///< of that shape
   Musculature musculature;
+  PassiveMoments passive_moments;  ///< of capsules and ligaments, by coordinate; empty = none
   std::shared_ptr<const std::vector<BoneMesh>> bones = std::make_shared<std::vector<BoneMesh>>();
   /// By unit: what the exam changed (1 if absent). A record; the lengths in `musculature` include it already.
   std::map<std::string, double> length_factors;
