@@ -5,6 +5,8 @@
 #include "clinical/case/case_io.h"
 #include "clinical/pipeline/stage_runs.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {
