@@ -109,11 +109,15 @@ Model withPhysics(const Model& model, const Model& reference, const PhysicsFacto
   return result;
 }
 
+double volumeMass_kg(const Skeleton& reference, const ShapeParameters& shape) {
+  double mass_kg = 0;
+  for (const Segment& segment : deformedInertias(reference, toVector(shape))) mass_kg += segment.mass_kg;
+  return mass_kg;
+}
+
 std::map<std::string, double> massFactorsFor(const Skeleton& reference, const ShapeParameters& shape,
                                              double mass_kg) {
-  const auto segments = deformedInertias(reference, toVector(shape));
-  double volume_kg = 0;
-  for (const Segment& segment : segments) volume_kg += segment.mass_kg;
+  const double volume_kg = volumeMass_kg(reference, shape);
   const double factor = mass_kg / volume_kg;
   constexpr double kMost = 5;
   if (!(factor > 1 / kMost && factor < kMost)) {

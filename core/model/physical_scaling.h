@@ -55,6 +55,9 @@ double crossSectionScale(const Skeleton& reference, const MusculotendonUnit& uni
 /// @throws InputError for names that the model does not have, a factor and a ratio of one segment.
 Model withPhysics(const Model& model, const Model& reference, const PhysicsFactors& factors);
 
+/// What a body of this shape weighs if it is as dense as the reference [kg].
+double volumeMass_kg(const Skeleton& reference, const ShapeParameters& shape);
+
 /// One factor for every segment, so that a body of this shape has this mass in all [kg]: what remains between bones
 /// and scales is flesh. @throws InputError if it would be beyond 1/5 to 5: mass and bones are not of one person.
 std::map<std::string, double> massFactorsFor(const Skeleton& reference, const ShapeParameters& shape, double mass_kg);

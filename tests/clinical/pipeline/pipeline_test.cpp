@@ -179,6 +179,7 @@ TEST_F(PipelineTest, WarnsOfWhatNobodyPickedOrMeasured) {
   };
   EXPECT_TRUE(codes(Stage::Landmarks, "landmarks_missing"));
   EXPECT_TRUE(codes(Stage::Landmarks, "unknown_landmark"));
+  EXPECT_TRUE(codes(Stage::Musculature, "model_mass_unknown"));
   EXPECT_TRUE(codes(Stage::Exam, "nothing_measured"));
   EXPECT_TRUE(codes(Stage::Exam, "mass_unknown"));
 }
