@@ -162,12 +162,28 @@ void checkMirror(const Model& model, const std::vector<RigidTransform>& X_WB, Fi
   }
 }
 
+/// Whoever asks a stop and whoever asks the structures there must get the same answer (core/passive/structures.h).
+void checkStructures(const Model& model, Findings& findings) {
+  constexpr double kSame_rad = 1e-9;
+  const auto& coordinates = model.skeleton.coordinates;
+  if (model.passive_moments.empty()) return;
+  if (model.passive_moments.size() != coordinates.size())
+    return findings.add("passive_structures", "passive_moments", "are not one a coordinate");
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const PassiveMoment& m = model.passive_moments[i];
+    if ((m.upper_Nm > 0 && std::abs(m.upper_rad - coordinates[i].stop_max_rad) > kSame_rad) ||
+        (m.lower_Nm > 0 && std::abs(m.lower_rad - coordinates[i].stop_min_rad) > kSame_rad))
+      findings.add("passive_structures", coordinates[i].name, "has structures that end elsewhere than its stop");
+  }
+}
+
 }  // namespace
 
 Warnings validateModel(const Model& model) {
   Findings findings;
   const Skeleton& s = model.skeleton;
   checkSkeleton(s, findings);
+  checkStructures(model, findings);
   for (const Landmark& landmark : s.landmarks)
     if (!isSegment(s, landmark.segment) || !landmark.p_BL.allFinite())
       findings.add("landmark", landmark.name, "is on no segment");
