@@ -58,7 +58,7 @@ Trial runTrial(const Skeleton& reference, const std::vector<ShapePrior>& priors,
   const auto observations = test::observe(body, posture, views, landmarks, noise_mm, random);
   Trial trial{figuresOf(body, posture), {}, 0};
   const double begin_ms = threadTime_ms();
-  trial.fit = fitSkeleton(reference, views, observations, priors);
+  trial.fit = fitSkeleton(reference, exactViews(views), observations, priors);
   trial.ms = threadTime_ms() - begin_ms;
   return trial;
 }

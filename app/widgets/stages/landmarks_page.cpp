@@ -18,7 +18,7 @@
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/radiograph_pane.h"
-#include "clinical/pipeline/case_fit.h"
+#include "clinical/pipeline/patient_fit.h"
 #include "clinical/report/figure_texts.h"
 
 namespace sinew {
@@ -304,7 +304,7 @@ void LandmarksPage::refreshAdvice() {
   QStringList lines;
   if (c.rig && c.sightings.size() >= kFewest) {
     try {
-      const SkeletonFit fit = fitCaseSkeleton(c, workspace().reference()->skeleton, workspace().resourceDir());
+      const SkeletonFit fit = fitPatient(workspace().reference()->skeleton, *c.rig, c.sightings, workspace().resourceDir());
       for (const auto& text : adviceTexts(fit.advice, workspace().norms(), protocol_))
         lines << QString::fromStdString(text);
       if (fit.outcome == Outcome::Converged && lines.isEmpty()) lines << tr("These landmarks determine every figure.");

@@ -57,11 +57,11 @@ PickReport reportOf(const FitEvidence& evidence) {
     Eigen::MatrixXd by_z(rows, evidence.z.size());
     bool visible = true;
     for (Eigen::Index k = 0; k < rows / 2 && visible; ++k) {
-      Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();
-      Eigen::Matrix<double, 2, 3> by_point = Eigen::Matrix<double, 2, 3>::Zero();
-      visible = evidence.image(picks.landmark, picks.views[std::size_t(k)], posed.p_W[l], uv_px, by_point);
-      residual_px.segment<2>(2 * k) = picks.uv_px.segment<2>(2 * k) - uv_px;
-      by_z.middleRows<2>(2 * k) = by_point * posed.dp_dz[l];
+      SeenImage seen;
+      visible = evidence.image(picks.landmark, picks.views[std::size_t(k)], posed.p_W[l], seen);
+      if (!visible) break;
+      residual_px.segment<2>(2 * k) = picks.uv_px.segment<2>(2 * k) - seen.uv_px;
+      by_z.middleRows<2>(2 * k) = seen.by_point * posed.dp_dz[l];
     }
     if (!visible) continue;
     const Eigen::MatrixXd weight = picks.covariance_px2.inverse();
@@ -138,7 +138,7 @@ void judgeFigures(const FitEvidence& evidence, SkeletonFit& fit) {
   fit.outside = outsideBones(evidence.reference, report.misfits);
   warnOfOutsideBones(fit.outside, fit.warnings);
   const FittedFigures fitted = fittedFigures(evidence);
-  const TriangulatedFigures picked = triangulatedFigures(evidence.reference, report.points);
+  const TriangulatedFigures picked = triangulatedFigures(evidence.reference, report.points, evidence.nuisance_covariance);
   Eigen::VectorXd prior_variance(evidence.z.size());
   for (int i = 0; i < evidence.body.count(); ++i) prior_variance[i] = std::pow(evidence.body.priorWeight(i), -2);
 

@@ -17,6 +17,7 @@ struct FitEvidence {
   Eigen::MatrixXd covariance;        ///< of z, priors included
   std::vector<LandmarkPicks> picks;  ///< that the fit has used
   ImageOfPoint image;
+  Eigen::MatrixXd nuisance_covariance;  ///< of what disturbs the views
   std::vector<std::string> offered;  ///< landmarks that could still be picked
   int view_count = 2;
 };

@@ -46,10 +46,9 @@ std::vector<Candidate> candidatesOf(const FitEvidence& evidence, Eigen::MatrixXd
       const bool has = std::ranges::any_of(evidence.picks, [&](const LandmarkPicks& picks) {
         return picks.landmark == landmarks[l] && std::ranges::find(picks.views, view) != picks.views.end();
       });
-      Eigen::Vector2d uv_px;
-      Eigen::Matrix<double, 2, 3> by_point;
-      if (has || !evidence.image(landmarks[l], view, posed.p_W[l], uv_px, by_point)) continue;
-      by_z.middleRows<2>(row) = by_point * posed.dp_dz[l];
+      SeenImage seen;
+      if (has || !evidence.image(landmarks[l], view, posed.p_W[l], seen)) continue;
+      by_z.middleRows<2>(row) = seen.by_point * posed.dp_dz[l];
       row += 2;
       candidate.rows += 2;
     }

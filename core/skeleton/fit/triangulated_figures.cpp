@@ -95,23 +95,25 @@ std::optional<PickedPoint> pickedPoint(const LandmarkPicks& picks, const ImageOf
   const Eigen::MatrixXd weight = picks.covariance_px2.inverse();
   PickedPoint point{picks.landmark, start_W, {}, 0, {}};
   Eigen::VectorXd residual_px(rows);
-  Eigen::MatrixXd by_point(rows, 3);
+  Eigen::MatrixXd by_point(rows, 3), by_nuisance;
   constexpr int kSteps = 12;
   constexpr double kStill_m = 1e-10, kOpen_m = 0.1;
   for (int i = 0; i < kSteps; ++i) {
     for (Eigen::Index k = 0; k < rows / 2; ++k) {
-      Eigen::Vector2d uv_px;
-      Eigen::Matrix<double, 2, 3> derivative;
-      if (!image(picks.landmark, picks.views[std::size_t(k)], point.p_W, uv_px, derivative)) return std::nullopt;
-      residual_px.segment<2>(2 * k) = picks.uv_px.segment<2>(2 * k) - uv_px;
-      by_point.middleRows<2>(2 * k) = derivative;
+      SeenImage seen;
+      if (!image(picks.landmark, picks.views[std::size_t(k)], point.p_W, seen)) return std::nullopt;
+      residual_px.segment<2>(2 * k) = picks.uv_px.segment<2>(2 * k) - seen.uv_px;
+      by_point.middleRows<2>(2 * k) = seen.by_point;
+      if (k == 0) by_nuisance = Eigen::MatrixXd::Zero(rows, seen.by_nuisance.cols());
+      by_nuisance.middleRows<2>(2 * k) = seen.by_nuisance;
     }
     const Eigen::Matrix3d normal = by_point.transpose() * weight * by_point;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes{normal, Eigen::EigenvaluesOnly};
     if (!(axes.eigenvalues()[0] > 1 / (kOpen_m * kOpen_m))) return std::nullopt;
     point.covariance_W_m2 = normal.inverse();
-    point.by_picks = point.covariance_W_m2 * by_point.transpose() * weight;
-    const Vector3d step = point.by_picks * residual_px;
+    const Eigen::MatrixXd by_picks = point.covariance_W_m2 * by_point.transpose() * weight;
+    point.by_nuisance = -by_picks * by_nuisance;
+    const Vector3d step = by_picks * residual_px;
     point.p_W += step;
     if (step.norm() < kStill_m) break;
   }
@@ -120,14 +122,15 @@ std::optional<PickedPoint> pickedPoint(const LandmarkPicks& picks, const ImageOf
   return point;
 }
 
-TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<const PickedPoint> points) {
+TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<const PickedPoint> points,
+                                        const Eigen::MatrixXd& nuisance_covariance) {
   const FiguresOfPicks figures{reference, points};
   std::vector<Vector3d> p_W;
   for (const PickedPoint& point : points) p_W.push_back(point.p_W);
   TriangulatedFigures result;
   result.value = figures.at(p_W);
   const Eigen::Index count = Eigen::Index(result.value.size());
-  result.by_points = Eigen::MatrixXd::Zero(count, 3 * Eigen::Index(p_W.size()));
+  Eigen::MatrixXd by_points = Eigen::MatrixXd::Zero(count, 3 * Eigen::Index(p_W.size()));
   constexpr double kStep_m = 1e-5;  // against distances of 50 mm: truncation below 1e-7 of the derivative
   for (std::size_t i = 0; i < p_W.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
@@ -135,15 +138,18 @@ TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<con
       more[i][axis] += kStep_m, less[i][axis] -= kStep_m;
       const auto high = figures.at(more), low = figures.at(less);
       for (Eigen::Index f = 0; f < count; ++f)
-        result.by_points(f, 3 * Eigen::Index(i) + axis) =
+        by_points(f, 3 * Eigen::Index(i) + axis) =
             (high[std::size_t(f)] - low[std::size_t(f)]) / (2 * kStep_m);
     }
   for (Eigen::Index f = 0; f < count; ++f) {
     double variance = 0;
+    Eigen::VectorXd by_nuisance = Eigen::VectorXd::Zero(nuisance_covariance.rows());
     for (std::size_t i = 0; i < p_W.size(); ++i) {
-      const Vector3d g = result.by_points.row(f).segment<3>(3 * Eigen::Index(i));
+      const Vector3d g = by_points.row(f).segment<3>(3 * Eigen::Index(i));
       variance += g.dot(points[i].covariance_W_m2 * g);
+      if (by_nuisance.size() > 0) by_nuisance += points[i].by_nuisance.transpose() * g;
     }
+    if (by_nuisance.size() > 0) variance += by_nuisance.dot(nuisance_covariance * by_nuisance);
     result.sd.push_back(std::sqrt(variance));
   }
   return result;

@@ -14,10 +14,15 @@ namespace sinew {
 // its bone. They know nothing of the model, so they have no bias where a bone is outside its family; they are wider
 // than the fitted ones, because nothing is smoothed.
 
-/// Image of a point of the world in one of the views, with its derivative; false behind the source. The point is the
-/// place of this landmark (index into skeleton.landmarks) at the first exposure.
-using ImageOfPoint = std::function<bool(int landmark, int view, const Eigen::Vector3d& p_W, Eigen::Vector2d& uv_px,
-                                        Eigen::Matrix<double, 2, 3>& by_point)>;
+/// Image of a point, with derivatives by the point and by what disturbs the views (movement, errors of the geometry).
+struct SeenImage {
+  Eigen::Vector2d uv_px;
+  Eigen::Matrix<double, 2, 3> by_point;
+  Eigen::Matrix2Xd by_nuisance;  ///< no columns where nothing disturbs
+};
+/// False behind the source. The point is the place of this landmark (index into skeleton.landmarks) at the first
+/// exposure.
+using ImageOfPoint = std::function<bool(int landmark, int view, const Eigen::Vector3d& p_W, SeenImage& image)>;
 
 /// All picks of one landmark, and the covariance of their errors (two rows a pick).
 struct LandmarkPicks {
@@ -33,7 +38,7 @@ struct PickedPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_W_m2 = Eigen::Matrix3d::Zero();
   double disagreement = 0;  ///< root of (sum of squares of the residuals in sigmas / their degrees of freedom)
-  Eigen::MatrixXd by_picks;  ///< derivative of p_W by the picks [m/px]
+  Eigen::Matrix3Xd by_nuisance;  ///< derivative of p_W by what disturbs the views
 };
 /// nullopt if the picks leave a direction open (one view, rays within some degrees of parallel): SD above 0.1 m.
 /// @param start_W somewhere near.
@@ -44,8 +49,9 @@ std::optional<PickedPoint> pickedPoint(const LandmarkPicks& picks, const ImageOf
 /// nobody picks, come from the landmarks around them: the similarity that takes these of the reference to the picks.
 struct TriangulatedFigures {
   std::vector<double> value, sd;
-  Eigen::MatrixXd by_points;  ///< derivative of the values by the points' coordinates: figures x 3 points
 };
-TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<const PickedPoint> points);
+/// @param nuisance_covariance of what disturbs the views, at the solution of the fit.
+TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<const PickedPoint> points,
+                                        const Eigen::MatrixXd& nuisance_covariance = {});
 
 }  // namespace sinew

@@ -47,7 +47,7 @@ class JudgedFigures : public testing::Test {
   SkeletonFit fit(const std::vector<LandmarkObservation>& picks) const {
     FitOptions options;
     options.offered_landmarks = protocol;
-    return fitSkeleton(skeleton, views, picks, priors, options);
+    return fitSkeleton(skeleton, exactViews(views), picks, priors, options);
   }
   static const BoneFigure& figure(const SkeletonFit& fit, const std::string& quantity, const std::string& side = "") {
     return *std::ranges::find_if(fit.figures,

@@ -15,13 +15,13 @@ namespace sinew {
 namespace {
 
 ImageOfPoint imageIn(const std::vector<View>& views) {
-  return [&views](int, int view, const Eigen::Vector3d& p, Eigen::Vector2d& uv_px,
-                  Eigen::Matrix<double, 2, 3>& by_point) {
+  return [&views](int, int view, const Eigen::Vector3d& p, SeenImage& seen) {
     using Jet = ceres::Jet<double, 3>;
     Eigen::Matrix<Jet, 2, 1> uv;
     if (!project<Jet>(views[std::size_t(view)], Vector3<Jet>{Jet(p.x(), 0), Jet(p.y(), 1), Jet(p.z(), 2)}, uv))
       return false;
-    for (int i = 0; i < 2; ++i) uv_px[i] = uv[i].a, by_point.row(i) = uv[i].v;
+    for (int i = 0; i < 2; ++i) seen.uv_px[i] = uv[i].a, seen.by_point.row(i) = uv[i].v;
+    seen.by_nuisance.resize(2, 0);
     return true;
   };
 }
