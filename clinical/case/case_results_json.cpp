@@ -109,6 +109,49 @@ Triangulation triangulationFromJson(const JsonReader& json) {
   return landmarks;
 }
 
+/// An angle or a distance with its interval, in the unit that the key names.
+Json amountToJson(const ExposureMovement::Amount& amount) {
+  return {numberOrNull(amount.value), numberOrNull(amount.lower95), numberOrNull(amount.upper95)};
+}
+
+ExposureMovement::Amount amountFromJson(const JsonReader& json) {
+  const auto parts = json.items(3);
+  return {parts[0].numberOrNaN(), parts[1].numberOrNaN(), parts[2].numberOrNaN()};
+}
+
+Json movementsToJson(const std::vector<ExposureMovement>& movements) {
+  Json list = Json::array();
+  for (const auto& m : movements) {
+    Json joints = Json::array();
+    for (const auto& j : m.joints)
+      joints.push_back({{"joint", j.joint}, {"turn_deg", amountToJson(j.turn_deg)}, {"moved", j.moved}});
+    list.push_back({{"exposure", m.exposure},
+                    {"turn_deg", amountToJson(m.turn_deg)},
+                    {"sway_mm", amountToJson(m.sway_mm)},
+                    {"moved", m.moved},
+                    {"joints", joints}});
+  }
+  return list;
+}
+
+std::vector<ExposureMovement> movementsFromJson(const JsonReader& json) {
+  std::vector<ExposureMovement> movements;
+  for (const auto& m : json.items()) {
+    m.allowOnly({"exposure", "turn_deg", "sway_mm", "moved", "joints"});
+    ExposureMovement movement{m["exposure"].integer(0, 1000),
+                              amountFromJson(m["turn_deg"]),
+                              amountFromJson(m["sway_mm"]),
+                              m["moved"].boolean(),
+                              {}};
+    for (const auto& j : m["joints"].items()) {
+      j.allowOnly({"joint", "turn_deg", "moved"});
+      movement.joints.push_back({j["joint"].text(), amountFromJson(j["turn_deg"]), j["moved"].boolean()});
+    }
+    movements.push_back(movement);
+  }
+  return movements;
+}
+
 Json skeletonFitToJson(const SkeletonFit& fit) {
   Json residuals = Json::array();
   for (const auto& r : fit.residuals)
@@ -121,6 +164,11 @@ Json skeletonFitToJson(const SkeletonFit& fit) {
           {"rms_px", numberOrNull(fit.rms_px)},
           {"warnings", warningsToJson(fit.warnings)},
           {"figures", figuresToJson(fit.figures)},
+          {"pick_scale",
+           {{"pick", fit.pick_scale.pick},
+            {"definition", fit.pick_scale.definition},
+            {"blur_mm", fit.pick_scale.blur_mm}}},
+          {"movements", movementsToJson(fit.movements)},
           {"undetermined", fit.undetermined},
           {"shape", shapeToJson(fit.shape)},
           {"posture_m_rad", postureToJson(fit.posture)},
@@ -128,12 +176,18 @@ Json skeletonFitToJson(const SkeletonFit& fit) {
 }
 
 SkeletonFit skeletonFitFromJson(const JsonReader& json) {
-  json.allowOnly({"outcome", "rms_px", "warnings", "figures", "undetermined", "shape", "posture_m_rad", "residuals"});
+  json.allowOnly({"outcome", "rms_px", "warnings", "figures", "pick_scale", "movements", "undetermined", "shape",
+                  "posture_m_rad", "residuals"});
   SkeletonFit fit;
   fit.outcome = outcomeFromJson(json["outcome"]);
   fit.rms_px = json["rms_px"].numberOrNaN();
   fit.warnings = warningsFromJson(json["warnings"]);
   fit.figures = figuresFromJson(json["figures"]);
+  if (const auto scale = json.find("pick_scale")) {
+    scale->allowOnly({"pick", "definition", "blur_mm"});
+    fit.pick_scale = {(*scale)["pick"].number(), (*scale)["definition"].number(), (*scale)["blur_mm"].number()};
+  }
+  if (const auto movements = json.find("movements")) fit.movements = movementsFromJson(*movements);
   for (const auto& name : json["undetermined"].items()) fit.undetermined.push_back(name.text());
   fit.shape = shapeFromJson(json["shape"]);
   fit.posture = postureFromJson(json["posture_m_rad"]);

@@ -17,6 +17,7 @@
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/radiograph_pane.h"
+#include "clinical/pipeline/patient_fit.h"
 
 namespace sinew {
 namespace {
@@ -148,7 +149,8 @@ void LandmarksPage::connectPane(RadiographPane& pane) {
     workspace().view().setLandmark(name);
   });
   connect(&canvas, &RadiographView::markDragged, this, [this, view](const std::string& name, const QPointF& uv_px) {
-    workspace().document().preview([&](Case& c) { setSighting(c, name, view, {uv_px.x(), uv_px.y()}, 1); });
+    const double sigma_px = sigmaOfPick(view, name);
+    workspace().document().preview([&](Case& c) { setSighting(c, name, view, {uv_px.x(), uv_px.y()}, sigma_px); });
   });
   connect(&canvas, &RadiographView::markDropped, this,
           [this, view](const std::string& name, const QPointF& uv_px) { place(view, name, uv_px); });
@@ -162,7 +164,16 @@ void LandmarksPage::place(int view, const std::string& name, const QPointF& uv_p
                                std::clamp(uv_px.y(), 0.0, r->height_px - 1.0)};
   const bool known = findSighting(shownCase(), name, view) != nullptr;
   const QString label = (known ? tr("Move %1") : tr("Place %1")).arg(readableName(name));
-  workspace().document().edit(label, [&](Case& c) { setSighting(c, name, view, inside, typicalSigma_px(c)); });
+  const double sigma_px = sigmaOfPick(view, name);
+  workspace().document().edit(label, [&](Case& c) { setSighting(c, name, view, inside, sigma_px); });
+}
+
+double LandmarksPage::sigmaOfPick(int view, const std::string& name) {
+  const Case& c = shownCase();
+  const Radiograph* r = panes_[std::size_t(view)]->view().radiograph();
+  constexpr double kUsualPixel_mm = 0.2;  // of a flat panel that does not say
+  const double pixel_mm = r && r->spacing ? r->spacing->column_mm : kUsualPixel_mm;
+  return pickSigma_px(workspace().resourceDir(), name, c.rig ? &*c.rig : nullptr, view, pixel_mm);
 }
 
 void LandmarksPage::removeSelected(bool both_views) {

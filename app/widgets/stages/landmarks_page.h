@@ -52,6 +52,7 @@ class LandmarksPage : public StagePage {
   void step(int direction);
   void removeSelected(bool both_views);
   void place(int view, const std::string& name, const QPointF& uv_px);
+  double sigmaOfPick(int view, const std::string& name);  ///< what the protocol says of a click, in pixels
 
   QString titleOfLandmark(const std::string& name) const;
 
