@@ -121,7 +121,7 @@ QString stateExplanation(StageState state, Stage stage) {
         case Stage::Images:
           return tr("Add a frontal and a lateral radiograph.");
         case Stage::Landmarks:
-          return tr("Place landmarks in both radiographs.");
+          return tr("Place landmarks in two radiographs or more.");
         case Stage::Exam:
           return tr("Enter at least one measured angle.");
         default:
@@ -163,6 +163,11 @@ QString spacingText(const Radiograph& radiograph) {
       break;
   }
   return QStringLiteral("%1 × %2 mm, %3").arg(s.column_mm, 0, 'f', 3).arg(s.row_mm, 0, 'f', 3).arg(source);
+}
+
+QString viewTitle(const Case& c, int view) {
+  if (c.rig && view < int(c.rig->views.size())) return tr(viewTitle(c.rig->views, view).c_str());
+  return view == 0 ? tr("Frontal") : view == 1 ? tr("Lateral") : tr("View %1").arg(view + 1);
 }
 
 QString methodTitle(const std::string& method) {

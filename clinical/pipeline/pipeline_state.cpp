@@ -45,7 +45,10 @@ Json imagesToJson(const std::vector<CaseImage>& images) {
 }
 
 Json phantomHashes(const PhantomImages& phantom) {
-  return Json::array({phantom.images[0].sha256, phantom.images[1].sha256, phantom.beads.sha256});
+  Json list = Json::array();
+  for (const auto& image : phantom.images) list.push_back(image.sha256);
+  list.push_back(phantom.beads.sha256);
+  return list;
 }
 
 /// A result without what differs from run to run.
@@ -153,7 +156,7 @@ std::string nameOf(StageState state) {
 std::string missingInput(const Case& c, Stage stage) {
   switch (stage) {
     case Stage::Images:
-      if (c.images.size() == 2) return {};
+      if (c.images.size() >= 2) return {};
       return "two radiographs are needed, there " +
              std::string(c.images.size() == 1 ? "is 1" : "are " + std::to_string(c.images.size()));
     case Stage::Landmarks:

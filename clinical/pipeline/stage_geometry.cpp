@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <array>
+#include <functional>
 
 #include "clinical/case/case_io.h"
 #include "clinical/pipeline/phantom_calibration.h"
@@ -11,11 +11,11 @@
 namespace sinew {
 namespace {
 
-std::array<Radiograph, 2> readPair(const Case& c, const PipelineContext& context) {
-  const auto read = [&](const CaseImage& image) {
-    return readRadiograph(checkedFile(image.file, context.case_dir), image.declared_spacing_mm);
-  };
-  return {read(c.images.at(0)), read(c.images.at(1))};
+std::vector<Radiograph> readImages(const Case& c, const PipelineContext& context) {
+  std::vector<Radiograph> images;
+  for (const auto& image : c.images)
+    images.push_back(readRadiograph(checkedFile(image.file, context.case_dir), image.declared_spacing_mm));
+  return images;
 }
 
 std::string viewName(std::size_t i) {
@@ -26,18 +26,37 @@ std::string sizeText(int width_px, int height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px) + " px";
 }
 
-/// Doubts whether two radiographs were taken of one person on one occasion. Says nothing about who it is.
-Warnings pairDoubts(const std::array<Radiograph, 2>& images) {
-  const RadiographTags &a = images[0].tags, &b = images[1].tags;
+/// Doubts whether the radiographs were taken of one person on one occasion. Says nothing about who it is.
+Warnings doubtsAbout(const std::vector<Radiograph>& images) {
+  const std::string which = images.size() == 2 ? "the two radiographs" : "the radiographs";
+  const auto values = [&](std::string RadiographTags::*field) {
+    std::vector<std::string> stated;
+    for (const auto& image : images)
+      if (!(image.tags.*field).empty()) stated.push_back(image.tags.*field);
+    return stated;
+  };
+  const auto differ = [&](std::string RadiographTags::*field) {
+    const auto stated = values(field);
+    return std::ranges::adjacent_find(stated, std::ranges::not_equal_to{}) != stated.end();
+  };
   Warnings warnings;
-  const auto differ = [](const std::string& x, const std::string& y) { return !x.empty() && !y.empty() && x != y; };
-  if (differ(a.patient_id, b.patient_id) || differ(a.patient_birth_date, b.patient_birth_date))
-    warnings.push_back({"different_patients", "the two radiographs name different patients"});
-  if (differ(a.study_date, b.study_date))
-    warnings.push_back({"different_dates", "the two radiographs were taken on different days"});
-  if (differ(a.view_position, b.view_position) == false && !a.view_position.empty() && !b.view_position.empty())
-    warnings.push_back({"same_view", "both radiographs say view position " + a.view_position});
+  if (differ(&RadiographTags::patient_id) || differ(&RadiographTags::patient_birth_date))
+    warnings.push_back({"different_patients", which + " name different patients"});
+  if (differ(&RadiographTags::study_date))
+    warnings.push_back({"different_dates", which + " were taken on different days"});
+  const auto positions = values(&RadiographTags::view_position);
+  if (positions.size() == images.size() && !differ(&RadiographTags::view_position))
+    warnings.push_back({"same_view", (images.size() == 2 ? "both" : "all") +
+                                         std::string{" radiographs say view position "} + positions.front()});
   return warnings;
+}
+
+/// @throws InputError if two images are the same file.
+void requireDifferentFiles(const std::vector<CaseImage>& images) {
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (images[i].file.sha256 == images[k].file.sha256)
+        throw InputError{{"images", viewName(i), "another radiograph than " + viewName(k), "the same file twice"}};
 }
 
 void expectSameSize(const View& view, const Radiograph& image, std::size_t i, const std::string& where) {
@@ -61,7 +80,7 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kMost ? text + ", ..." : text;
 }
 
-/// Which points the skeleton does not know, and which landmarks of the protocol nobody picked in both views.
+/// Which points the skeleton does not know, and which landmarks of the protocol nobody picked in two views.
 Warnings coverage(const Case& c, const PipelineContext& context) {
   const auto& landmarks = context.reference->skeleton.landmarks;
   std::vector<std::string> known, foreign;
@@ -87,7 +106,7 @@ Warnings coverage(const Case& c, const PipelineContext& context) {
   if (!missing.empty())
     warnings.push_back({"landmarks_missing", std::to_string(missing.size()) +
                                                  (missing.size() == 1 ? " landmark" : " landmarks") +
-                                                 " of the protocol not seen in both views: " + listed(missing)});
+                                                 " of the protocol not seen in two views: " + listed(missing)});
   return warnings;
 }
 
@@ -98,38 +117,41 @@ void addWarnings(Warnings& warnings, const Warnings& more, const std::string& so
 }
 
 StageRun runImages(Case& c, const PipelineContext& context) {
-  if (c.images[0].file.sha256 == c.images[1].file.sha256)
-    throw InputError{{"images", "view 2", "another radiograph than view 1", "the same file twice"}};
-  const auto images = readPair(c, context);
+  requireDifferentFiles(c.images);
+  const auto images = readImages(c, context);
   StageRun run;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
     addWarnings(run.warnings, images[i].warnings, viewName(i));
     const auto& spacing = images[i].spacing;
     run.summary += (i ? "; " : "") + viewName(i) + " " + sizeText(images[i].width_px, images[i].height_px) + ", " +
                    (spacing ? rounded(spacing->column_mm, 3) + " mm a pixel" : "pixel size not stated");
   }
-  addWarnings(run.warnings, pairDoubts(images));
+  addWarnings(run.warnings, doubtsAbout(images));
   return run;
 }
 
 StageRun runCalibration(Case& c, const PipelineContext& context, const Job& job) {
   if (c.phantom && c.imported_rig)
     throw InputError{{"calibration", "geometry", "images of a phantom or a rig file", "both"}};
-  const auto images = readPair(c, context);
+  const auto images = readImages(c, context);
   StageRun run;
   std::size_t beads = 0;
   if (c.phantom) {
     const auto file = [&](const FileReference& reference) { return checkedFile(reference, context.case_dir); };
-    auto calibration =
-        calibrateFromPhantom({file(c.phantom->images[0]), file(c.phantom->images[1])}, file(c.phantom->beads), job);
+    std::vector<std::filesystem::path> phantom;
+    for (const auto& image : c.phantom->images) phantom.push_back(file(image));
+    auto calibration = calibrateFromPhantom(phantom, file(c.phantom->beads), job);
     run.outcome = calibration.outcome;
     if (run.outcome != Outcome::Converged) return run;
     beads = calibration.residuals.size();
     c.rig = std::move(calibration.rig);
   } else {
-    c.rig = c.imported_rig ? *c.imported_rig : rigFromDicom(images[0], images[1]);
+    c.rig = c.imported_rig ? *c.imported_rig : rigFromDicom(images);
   }
-  for (std::size_t i = 0; i < 2; ++i) expectSameSize(c.rig->views[i], images[i], i, "calibration");
+  if (c.rig->views.size() != images.size())
+    throw InputError{{"calibration", "views", std::to_string(images.size()) + ", one for every radiograph",
+                      std::to_string(c.rig->views.size())}};
+  for (std::size_t i = 0; i < images.size(); ++i) expectSameSize(c.rig->views[i], images[i], i, "calibration");
   addWarnings(run.warnings, c.rig->calibration.warnings);
   run.summary = calibrationSummary(*c.rig);
   if (beads) run.summary += ", " + std::to_string(beads) + " beads seen";
@@ -141,7 +163,8 @@ StageRun runLandmarks(Case& c, const PipelineContext& context) {
   c.landmarks = triangulateAll(*c.rig, c.sightings);
   addWarnings(run.warnings, c.landmarks->warnings);
   addWarnings(run.warnings, coverage(c, context));
-  run.summary = std::to_string(c.landmarks->points.size()) + " points in both views";
+  run.summary = std::to_string(c.landmarks->points.size()) +
+                (c.rig->views.size() == 2 ? " points in both views" : " points in two views or more");
   if (std::isfinite(c.landmarks->rms_px)) run.summary += ", RMS " + rounded(c.landmarks->rms_px, 2) + " px";
   return run;
 }

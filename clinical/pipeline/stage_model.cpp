@@ -86,7 +86,7 @@ StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job) {
     run.warnings.push_back({"not_patient_aligned", "the world frame of the geometry is not the patient's"});
   const auto observations = observationsOf(c.sightings);
   const auto priors = loadShapePriors(context.resource_dir);
-  c.skeleton = fitSkeleton(context.reference->skeleton, c.rig->views, observations, priors, {}, job);
+  c.skeleton = fitSkeleton(context.reference->skeleton, projectionsOf(*c.rig), observations, priors, {}, job);
   addWarnings(run.warnings, c.skeleton->warnings);
   run.outcome = c.skeleton->outcome;
   run.summary = skeletonSummary(*c.skeleton);

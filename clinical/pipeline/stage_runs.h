@@ -15,11 +15,11 @@ struct StageRun {
   std::string summary;  ///< key figures in one line, no patient data
 };
 
-/// Reads both radiographs and asks whether they are a pair.
+/// Reads the radiographs and asks whether they belong together.
 StageRun runImages(Case& c, const PipelineContext& context);
-/// Geometry of the two views, from bead phantom, imported rig or DICOM attributes.
+/// Geometry of the views, from bead phantom, imported rig or DICOM attributes.
 StageRun runCalibration(Case& c, const PipelineContext& context, const Job& job);
-/// Position of every landmark seen in both views, and which ones of the protocol are missing.
+/// Position of every landmark seen in two views or more, and which ones of the protocol are missing.
 StageRun runLandmarks(Case& c, const PipelineContext& context);
 /// Shape and posture from the sightings.
 StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job);

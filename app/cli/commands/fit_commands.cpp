@@ -33,7 +33,7 @@ void addFit(Commands& commands) {
       const BiplanarRig rig = loadRig(o->rig);
       std::vector<LandmarkObservation> observations;
       for (const auto& s : loadSightings(o->sightings)) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-      const auto fit = fitSkeleton(session.reference().skeleton, rig.views, observations,
+      const auto fit = fitSkeleton(session.reference().skeleton, projectionsOf(rig), observations,
                                    loadShapePriors(session.resourceDir()), {}, session.job());
       session.warn(fit.warnings);
       std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
