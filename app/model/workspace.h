@@ -10,10 +10,11 @@
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
 #include "clinical/report/norms.h"
-#include "core/retarget/retarget.h"
 #include "core/rom/tests/exam_test.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// Everything the panels of a window share.
 class Workspace : public QObject {
@@ -44,9 +45,10 @@ class Workspace : public QObject {
   /// is made from change. GUI thread. @throws InputError.
   std::shared_ptr<const Model> patientModel();
 
-  /// Runs one stage, or all that wait.
-  void run(std::vector<Stage> stages);
-  void runAll() { run(stagesToRun(document_)); }
+  /// Runs the stages that wait, or one again with those before it that wait.
+  void run(const RunRequest& request);
+  void runStage(Stage stage) { run({stage, stage}); }
+  void runAll() { run({}); }
 
   void openCase(const std::filesystem::path& folder);  ///< answers an unusable folder by problem()
   void saveCase();

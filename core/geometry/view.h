@@ -56,6 +56,13 @@ Ray backProject(const View& view, const Eigen::Vector2d& uv_px);
 /// "cone_beam", "slot_scan" or "orthographic".
 std::string projectionName(const View& view);
 
+/// Image of the axis of the beam: principal point of a cone beam, image of the isocentre otherwise.
+Eigen::Vector2d principalPoint_px(const View& view);
+
+/// Pixels per millimetre across the beam at a point: the mean over both image axes. What turns a reader's error in
+/// mm at the body into pixels. NaN behind the source.
+double pixelsPerMillimetre(const View& view, const Eigen::Vector3d& p_W);
+
 namespace detail {
 
 /// `Pinhole`: a ConeBeam, or the same members as a solver's unknowns. Every residual projects through here.

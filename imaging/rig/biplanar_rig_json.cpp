@@ -1,6 +1,7 @@
 #include "imaging/rig/biplanar_rig_json.h"
 
 #include "imaging/radiograph/radiograph.h"
+#include "imaging/rig/rig_uncertainty.h"
 
 namespace sinew {
 namespace {
@@ -92,14 +93,8 @@ View projectionFromJson(const JsonReader& json) {
   return view;
 }
 
-/// What a file from before exposures were written means.
-bool takenAtOnce(const BiplanarRig& rig) {
-  const std::string& method = rig.calibration.method;
-  return method == "dicom_slot_scan" || method == "autoscoper" || method == "mayacam";
-}
-
 RigView viewFromJson(const JsonReader& json, const BiplanarRig& rig, int index) {
-  RigView view{projectionFromJson(json), ViewRole::Other, takenAtOnce(rig) ? 0 : index};
+  RigView view{projectionFromJson(json), ViewRole::Other, isSimultaneous(rig.calibration) ? 0 : index};
   if (const auto role = json.find("role"))
     view.role =
         roleFromName(role->oneOf({"frontal_ap", "frontal_pa", "lateral_left", "lateral_right", "oblique", "other"}));

@@ -33,9 +33,16 @@ struct Trial {
 
 class ExchangeSearch {
  public:
-  ExchangeSearch(const Skeleton& reference, std::span<const View> views, std::span<const LandmarkObservation> picks,
-                 std::span<const ShapePrior> priors, const ExchangeOptions& options, const Job& job)
-      : reference_{reference}, views_{views}, picks_{picks}, priors_{priors}, options_{options}, job_{job} {
+  ExchangeSearch(const Skeleton& reference, std::span<const FitView> views,
+                 std::span<const LandmarkObservation> picks, std::span<const ShapePrior> priors,
+                 const FitOptions& fit_options, const ExchangeOptions& options, const Job& job)
+      : reference_{reference},
+        views_{views},
+        picks_{picks},
+        priors_{priors},
+        fit_options_{fit_options},
+        options_{options},
+        job_{job} {
     collectPairs();
   }
 
@@ -102,7 +109,7 @@ class ExchangeSearch {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (const int i : {pairs_[p].right, pairs_[p].left})
         if (swapped[p] && i >= 0) named[std::size_t(i)].landmark = withOtherSide(named[std::size_t(i)].landmark);
-    Trial trial{swapped, fitSkeleton(reference_, views_, named, priors_, {}, job_), {}, 0};
+    Trial trial{swapped, fitSkeleton(reference_, views_, named, priors_, fit_options_, job_), {}, 0};
     std::map<std::pair<int, std::string>, Residual> residuals;
     for (const auto& r : trial.fit.residuals) residuals[{r.view, r.landmark}] = {r.residual_px, r.sigmas};
     for (const auto& pick : named) {
@@ -148,6 +155,11 @@ class ExchangeSearch {
     const double then =
         priceOf((a.uv_px - at_b).norm() / a.sigma_px, scale) + priceOf((b.uv_px - at_a).norm() / b.sigma_px, scale);
     return now - then;
+  }
+
+  /// What pick and definition of a landmark let expect of its residual.
+  static double expected_px(const std::optional<Residual>& residual, const LandmarkObservation& pick) {
+    return residual->sigmas > 0 ? residual->px.norm() / residual->sigmas : pick.sigma_px;
   }
 
   /// Exchanges bones and pairs where that fits better, and fits again, until nothing changes.
@@ -235,9 +247,10 @@ class ExchangeSearch {
   }
 
   const Skeleton& reference_;
-  std::span<const View> views_;
+  std::span<const FitView> views_;
   std::span<const LandmarkObservation> picks_;
   std::span<const ShapePrior> priors_;
+  const FitOptions& fit_options_;
   const ExchangeOptions& options_;
   const Job& job_;
   std::vector<NamedPair> pairs_;
@@ -259,11 +272,11 @@ bool isExchanged(std::span<const SideExchange> exchanges, std::string_view name,
          });
 }
 
-ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const View> views,
+ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const FitView> views,
                                    std::span<const LandmarkObservation> observations,
-                                   std::span<const ShapePrior> priors, const ExchangeOptions& options,
-                                   const Job& job) {
-  return ExchangeSearch{reference, views, observations, priors, options, job}.run();
+                                   std::span<const ShapePrior> priors, const FitOptions& fit_options,
+                                   const ExchangeOptions& options, const Job& job) {
+  return ExchangeSearch{reference, views, observations, priors, fit_options, options, job}.run();
 }
 
 }  // namespace sinew

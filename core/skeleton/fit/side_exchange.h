@@ -46,9 +46,9 @@ struct ExchangeFinding {
 /// there, nor need it be; films that are stored mirrored and named as they hang make the mirror image of a patient,
 /// which no geometry can tell.
 /// @throws InputError as fitSkeleton().
-ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const View> views,
+ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const FitView> views,
                                    std::span<const LandmarkObservation> observations,
-                                   std::span<const ShapePrior> priors, const ExchangeOptions& options = {},
-                                   const Job& job = {});
+                                   std::span<const ShapePrior> priors, const FitOptions& fit_options = {},
+                                   const ExchangeOptions& options = {}, const Job& job = {});
 
 }  // namespace sinew

@@ -20,8 +20,8 @@
 #include "app/widgets/views/model_view.h"
 #include "app/widgets/views/vtk_view.h"
 #include "core/angle.h"
-#include "tests/support/resources.h"
 #include "tests/app/widgets/window_tour.h"
+#include "tests/support/resources.h"
 
 namespace sinew {
 namespace {
@@ -31,7 +31,7 @@ using test::threadTime_ms;
 using test::waitUntil;
 using ::testing::HasSubstr;
 
-constexpr int kLimit_ms = 120'000;  // a loaded machine with a software renderer
+constexpr int kLimit_ms = 120'000;  // processor time: a software renderer beside the work
 
 class ExplorerTour : public test::WindowTour {
  protected:

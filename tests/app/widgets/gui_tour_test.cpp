@@ -21,9 +21,9 @@
 #include "app/widgets/views/vtk_view.h"
 #include "clinical/case/case_io.h"
 #include "core/file.h"
+#include "tests/app/widgets/window_tour.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/app/widgets/window_tour.h"
 
 namespace sinew {
 namespace {
@@ -31,7 +31,7 @@ namespace {
 using test::letEventsRun;
 using test::waitUntil;
 
-constexpr int kStageLimit_ms = 240'000;  // a loaded machine with a software renderer
+constexpr int kStageLimit_ms = 240'000;  // processor time: a software renderer beside the stage
 
 class Tour : public test::WindowTour {
  protected:
