@@ -94,7 +94,7 @@ Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
 
   c.rig = rig;
   c.landmarks = triangulateAll(rig, c.sightings);
-  c.skeleton = fitSkeleton(reference.skeleton, rig.views, observations(c.sightings), priors);
+  c.skeleton = fitSkeleton(reference.skeleton, exactViews(projectionsOf(rig)), observations(c.sightings), priors);
   const Model fitted = deformedModel(reference, c.skeleton->shape);
   c.exam_fit = applyExam(fitted, c.exam, protocol, kMass_kg);
   std::filesystem::create_directories(folder / "results");
