@@ -58,9 +58,8 @@ class SkeletonFitter {
     fit.warnings = sightings_.warnings;
     start();
     const std::vector<int> observable = observableUnknowns();
-    nuisances_.emplace(reference_, body_, views_, options_.movement, observable);
+    setNuisances(options_.movement, observable);
     y_ = Eigen::VectorXd::Zero(nuisances_->count());
-    model_.emplace(FitModel{reference_, body_, views_, *nuisances_, sightings_.landmarks, pivot_W_});
     blocks_ = blocksOf(sightings_);
 
     const auto up_to = [&](auto keep) {
@@ -77,17 +76,11 @@ class SkeletonFitter {
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds && lossWidth_sigma() > options_.robust_loss_sigma; ++round)
       approach({observable, true}, 0.3 + 0.3 * round / kRounds, 0.3 + 0.3 * (round + 1) / kRounds);
-    // Where the residuals stay larger than stated (a wrong geometry, say), so does the loss; describe() warns of it.
-    const Unknowns all{observable, true};
-    const auto settle = [&](double from, double to) {
-      return solve(all, {lossWidth_sigma(), options_.max_iterations, 1e-8}, from, to);
-    };
-    fit.outcome = settle(0.6, 0.7);
-    if (fit.outcome == Outcome::Converged && leaveOutGrossErrors()) fit.outcome = settle(0.7, 0.8);
-    constexpr int kScaleRounds = 2;
-    for (int round = 0; round < kScaleRounds && fit.outcome == Outcome::Converged; ++round) {
-      scale_ = estimateScale(all);
-      fit.outcome = settle(0.8 + 0.1 * round, 0.9 + 0.1 * round);
+    fit.outcome = settle(observable, 0.6, 0.8);
+    if (fit.outcome == Outcome::Converged) bend_ = likeliestBend(reference_, *nuisances_, y_, nuisance_covariance_);
+    if (bend_) {
+      letJointsMove(observable);
+      fit.outcome = settle(observable, 0.8, 1);
     }
     if (fit.outcome != Outcome::Converged) return fit;
     describe(fit);
@@ -95,6 +88,43 @@ class SkeletonFitter {
   }
 
  private:
+  void setNuisances(const MovementPrior& prior, const std::vector<int>& observable) {
+    nuisances_.emplace(reference_, body_, views_, prior, observable);
+    model_.emplace(FitModel{reference_, body_, views_, *nuisances_, sightings_.landmarks, pivot_W_});
+  }
+
+  /// With everything free: the solution, without gross errors, with the scale of the picks that it shows. Where the
+  /// residuals stay larger than stated (a wrong geometry, say), so does the loss; describe() warns of it.
+  Outcome settle(const std::vector<int>& observable, double from, double to) {
+    const Unknowns all{observable, true};
+    const auto part = [&](double share) { return from + (to - from) * share; };
+    const auto solveAll = [&](double begin, double end) {
+      return solve(all, {lossWidth_sigma(), options_.max_iterations, 1e-8}, part(begin), part(end));
+    };
+    Outcome outcome = solveAll(0, 0.5);
+    if (outcome == Outcome::Converged && leaveOutGrossErrors()) outcome = solveAll(0.5, 0.6);
+    constexpr int kScaleRounds = 2;
+    for (int round = 0; round < kScaleRounds && outcome == Outcome::Converged; ++round) {
+      scale_ = estimateScale(all);
+      outcome = solveAll(0.6 + 0.2 * round, 0.8 + 0.2 * round);
+    }
+    return outcome;
+  }
+
+  /// The prior of joints at rest gives way to one of joints that moved; what it made look like an error is taken
+  /// back.
+  void letJointsMove(const std::vector<int>& observable) {
+    MovementPrior prior = options_.movement;
+    const double ratio = prior.joint_rad / prior.bent_joint_rad;
+    prior.joint_rad = prior.bent_joint_rad;
+    setNuisances(prior, observable);
+    for (int e = 1; e < nuisances_->exposureCount(); ++e)
+      for (const auto& change : nuisances_->jointChanges(e)) y_[change.y] *= ratio;
+    scale_ = {};
+    for (auto& item : sightings_.items) item.left_out = false;
+    blocks_ = blocksOf(sightings_);
+  }
+
   /// Sightings of one landmark: indices into the list.
   struct Block {
     int point = 0;
@@ -382,12 +412,7 @@ class SkeletonFitter {
       fit.residuals.push_back({sightings_.items[i].landmark, sightings_.items[i].view,
                                seen[i].residual_px.value_or(Eigen::Vector2d::Zero()), distances[i]});
     describeResiduals(sightings_, fit);
-    if (getenv("DBG_BEND")) {
-      const auto b = likeliestBend(reference_, *nuisances_, y_, nuisance_covariance_);
-      fprintf(stderr, "BEND %s%s %.2f deg %.2f sigma pick %.2f\n", b.joints.empty() ? "" : b.joints[0].c_str(),
-              b.joints.size() > 1 ? "+" : "", b.angle_rad * 57.3, b.sigmas, scale_.pick);
-    }
-    fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_);
+    fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_, bend_);
     warnOfMovement(fit.movements, fit.warnings);
     const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
     fit.undetermined = namesOf(reference_, body_, covariance_, options_.undetermined_ratio);
@@ -407,6 +432,7 @@ class SkeletonFitter {
   Eigen::Vector3d pivot_W_ = Eigen::Vector3d::Zero();
   Eigen::VectorXd z_, y_;
   PickScale scale_;
+  std::optional<LegBend> bend_;
   Eigen::MatrixXd covariance_, nuisance_covariance_;
 };
 

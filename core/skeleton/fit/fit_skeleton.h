@@ -55,12 +55,12 @@ struct ExposureMovement {
   struct JointChange {
     std::string joint;  ///< "knee_r"
     Amount turn_deg;
-    bool moved = false;  ///< beyond what the residuals of a joint at rest explain (chance of 1 in 2000)
+    bool moved = false;  ///< beyond doubt, and by more than anybody's standing
   };
-  int exposure = 0;  ///< of FitView::exposure
-  Amount turn_deg;   ///< of the whole body
-  Amount sway_mm;    ///< of the middle of what is seen of the body
-  bool moved = false;
+  int exposure = 0;                 ///< of FitView::exposure
+  Amount turn_deg;                  ///< of the whole body
+  Amount sway_mm;                   ///< of the middle of what is seen of the body
+  bool moved = false;               ///< certainly, and by more than half a degree or 2 mm
   std::vector<JointChange> joints;  ///< of the legs, right before left
 };
 
