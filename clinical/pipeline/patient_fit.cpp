@@ -1,5 +1,6 @@
 #include "clinical/pipeline/patient_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,7 @@
 namespace sinew {
 namespace {
 
-/// Where the axes of the beams pass each other: the middle between them.
+/// The point nearest to the axes of all beams.
 Eigen::Vector3d middleOf(const BiplanarRig& rig) {
   Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -22,23 +23,23 @@ Eigen::Vector3d middleOf(const BiplanarRig& rig) {
   return across.ldlt().solve(sum);
 }
 
+FitOptions optionsFrom(const std::filesystem::path& resource_dir) {
+  FitOptions options;
+  options.definition_errors = definitionErrors(loadLandmarkProtocol(resource_dir));
+  return options;
+}
+
+bool isKnown(const Skeleton& reference, const Sighting& sighting) {
+  const auto landmark = std::ranges::find(reference.landmarks, sighting.name, &Landmark::name);
+  return landmark != reference.landmarks.end() && landmark->segment < reference.movingSegmentCount();
+}
+
 }  // namespace
 
 std::vector<FitView> fitViewsOf(const BiplanarRig& rig) {
   std::vector<FitView> views;
-  const bool simultaneous = isSimultaneous(rig.calibration);
-  for (const View& view : rig.views)
-    views.push_back({view, simultaneous ? 0 : static_cast<int>(views.size()), uncertaintyOf(rig.calibration, view)});
+  for (const RigView& view : rig.views) views.push_back({view, view.exposure, uncertaintyOf(rig.calibration, view)});
   return views;
-}
-
-SkeletonFit fitPatient(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
-                       const std::filesystem::path& resource_dir, const Job& job) {
-  std::vector<LandmarkObservation> observations;
-  for (const auto& s : sightings) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-  FitOptions options;
-  options.definition_errors = definitionErrors(loadLandmarkProtocol(resource_dir));
-  return fitSkeleton(reference, fitViewsOf(rig), observations, loadShapePriors(resource_dir), options, job);
 }
 
 double pickSigma_px(const std::filesystem::path& resource_dir, const std::string& landmark, const BiplanarRig* rig,
@@ -46,11 +47,52 @@ double pickSigma_px(const std::filesystem::path& resource_dir, const std::string
   const auto protocol = loadLandmarkProtocol(resource_dir);
   const auto known = std::ranges::find(protocol, landmark, &ProtocolLandmark::name);
   const double sd_mm = (known == protocol.end() ? protocol.front() : *known).pick_sd_mm;
-  if (rig) {
+  if (rig && view < static_cast<int>(rig->views.size())) {
     const double scale = pixelsPerMillimetre(rig->views[static_cast<std::size_t>(view)], middleOf(*rig));
     if (std::isfinite(scale) && scale > 0) return sd_mm * scale;
   }
   return sd_mm / pixel_mm;
+}
+
+std::vector<LandmarkObservation> observationsOf(std::span<const Sighting> sightings) {
+  std::vector<LandmarkObservation> list;
+  for (const auto& s : sightings) list.push_back({s.name, s.view, s.uv_px, s.sigma_px});
+  return list;
+}
+
+SkeletonFit fitPatient(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
+                       const std::filesystem::path& resource_dir, const Job& job) {
+  return fitSkeleton(reference, fitViewsOf(rig), observationsOf(sightings), loadShapePriors(resource_dir),
+                     optionsFrom(resource_dir), job);
+}
+
+ExchangeFinding examineSides(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
+                             const std::filesystem::path& resource_dir, const Job& job) {
+  std::vector<Sighting> known;
+  std::ranges::copy_if(sightings, std::back_inserter(known), [&](auto& s) { return isKnown(reference, s); });
+  if (known.empty()) return {};
+  ExchangeOptions options;
+  if (rig.patient_aligned) options.anterior_W = Eigen::Vector3d::UnitX();
+  return findExchangedSides(reference, fitViewsOf(rig), observationsOf(known), loadShapePriors(resource_dir),
+                            optionsFrom(resource_dir), options, job);
+}
+
+Warnings warningsOf(const ExchangeFinding& finding) {
+  if (finding.exchanges.empty()) return {};
+  return {{std::string{kSidesExchanged},
+           "left and right are exchanged: " + finding.what +
+               ". The picks fit far better with the names of the other side; exchange them (--swap, or the button on "
+               "the landmarks page), or check the side markers"}};
+}
+
+bool disagreeGrossly(const SkeletonFit& fit, std::span<const SideExchange> whole_exchanges) {
+  return !whole_exchanges.empty() ||
+         std::ranges::any_of(fit.warnings, [](const Warning& w) { return w.code == "picks_disagree"; });
+}
+
+void applyExchange(std::vector<Sighting>& sightings, std::span<const SideExchange> exchanges) {
+  for (auto& s : sightings)
+    if (isExchanged(exchanges, s.name, s.view)) s.name = withOtherSide(s.name);
 }
 
 }  // namespace sinew

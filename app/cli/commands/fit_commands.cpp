@@ -32,8 +32,8 @@ void addFit(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const BiplanarRig rig = loadRig(o->rig);
-      const auto fit = fitPatient(session.reference().skeleton, rig, loadSightings(o->sightings),
-                                  session.resourceDir(), session.job());
+      const auto sightings = loadSightings(o->sightings);
+      const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
       std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
                          fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) +
