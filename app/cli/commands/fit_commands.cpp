@@ -5,6 +5,7 @@
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_results_json.h"
 #include "clinical/exam/physical_exam.h"
+#include "clinical/pipeline/patient_fit.h"
 #include "clinical/report/figure_texts.h"
 #include "imaging/rig/biplanar_rig.h"
 
@@ -48,18 +49,14 @@ void addFit(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const BiplanarRig rig = loadRig(o->rig);
-      std::vector<LandmarkObservation> observations;
-      for (const auto& s : loadSightings(o->sightings)) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-      const auto protocol = loadLandmarkProtocol(session.resourceDir());
-      FitOptions options;
-      for (const auto& landmark : protocol) options.offered_landmarks.push_back(landmark.name);
-      const auto fit = fitSkeleton(session.reference().skeleton, rig.views, observations,
-                                   loadShapePriors(session.resourceDir()), options, session.job());
+      const auto sightings = loadSightings(o->sightings);
+      const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
       std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
                          fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) +
                          " parameters undetermined\n" +
-                         figureRemarks(fit, loadNorms(session.resourceDir()), protocol);
+                         figureRemarks(fit, loadNorms(session.resourceDir()),
+                                       loadLandmarkProtocol(session.resourceDir()));
       if (fit.outcome == Outcome::Converged && !o->output.empty()) {
         saveModel(deformedModel(session.reference(), fit.shape), o->output);
         text += "written " + o->output + "\n";
