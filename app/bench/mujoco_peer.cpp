@@ -113,7 +113,7 @@ double MujocoPeer::passiveForce_N(int unit) {
   mju_zero(impl_->d->act, impl_->m->na);
   mju_zero(impl_->d->qvel, impl_->m->nv);
   mj_forward(impl_->m.get(), impl_->d.get());
-  return -impl_->d->actuator_force[unit];
+  return -impl_->d->actuator_force[impl_->m->nu - impl_->m->ntendon + unit];  // one tendon a muscle, muscles last
 }
 
 Eigen::VectorXd MujocoPeer::actuatorMoments_Nm() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/passive/structure_moments.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -55,10 +56,9 @@ double hingesMoment_Nm(const PassiveMoment& m, double length_rad) {
 
 }  // namespace
 
-Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Posture& posture) {
+Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Eigen::VectorXd& clinical) {
   const Skeleton& s = model.skeleton;
-  const Eigen::VectorXd clinical = clinicalFromPosture(s, posture);
-  const Kinematics rates = clinicalKinematics(s, posture);
+  const Posture posture = postureFromClinical(s, clinical);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(s.coordinateCount());
   for (int j = 0; !model.passive_moments.empty() && j < static_cast<int>(s.joints.size()); ++j) {
     const Joint& joint = s.joints[std::size_t(j)];
@@ -75,10 +75,9 @@ Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Posture& postu
       moment_B_Nm +=
           axis * hingesMoment_Nm(model.passive_moments[std::size_t(i)], axis.dot(posture.segment<3>(first)));
     }
-    const Eigen::Vector3d moment_W_Nm = rates.X_WB[std::size_t(joint.child)].linear() * moment_B_Nm;
-    for (const SegmentMotion& motion : rates.motions[std::size_t(joint.child)])
-      if (motion.coordinate >= first && motion.coordinate < first + 3)
-        result[motion.coordinate] = motion.twist.w.dot(moment_W_Nm);
+    // The rotation vector is the same in both frames, the moment is turned with the child.
+    const Eigen::Matrix3d R_JB = rotationFromVector<double>(posture.segment<3>(first));
+    result.segment<3>(first) = angleRates(s, joint, clinical.segment<3>(first)).transpose() * (R_JB * moment_B_Nm);
   }
   return result;
 }

@@ -13,8 +13,8 @@ namespace sinew {
 /// clinical axis instead, the same while the joint turns about that axis alone.
 std::string mjcfStructures(const Model& model, const std::string& indent);
 
-/// What these actuators do in MuJoCo, as generalised forces by clinical coordinate [N m].
-Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Posture& posture);
+/// What these actuators do in MuJoCo at clinical coordinates, as generalised forces conjugate to their rates [N m].
+Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Eigen::VectorXd& clinical);
 
 inline constexpr double kMjcfStructureError = 0.025;
 
