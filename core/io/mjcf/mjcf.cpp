@@ -101,14 +101,15 @@ class MjcfWriter {
   }
 
   void joint(const std::string& indent, const Joint& joint) {
-    const Coordinate& first = skeleton_.coordinates[joint.first_coordinate];
-    if (joint.type == JointType::Free)
+    if (joint.type == JointType::Free) {
       text_ += indent + "<freejoint name=\"" + escaped(joint.name) + "\"/>\n";
-    else if (joint.type == JointType::Revolute)
-      coordinateHinge(indent, first, first.axis);
-    else
+    } else if (mjcfHasHinges(skeleton_, static_cast<int>(&joint - skeleton_.joints.data()))) {
+      for (int i = joint.first_coordinate; i < joint.first_coordinate + joint.coordinate_count; ++i)
+        coordinateHinge(indent, skeleton_.coordinates[i], skeleton_.coordinates[i].axis);
+    } else {
       text_ += indent + "<joint name=\"" + escaped(joint.name) + "\" type=\"ball\" damping=\"0.1\" " +
                range(0, largestTurn_rad(skeleton_, joint)) + "/>\n";
+    }
   }
 
   /// Path points that are pinned to this segment.

@@ -17,14 +17,10 @@ struct Hinge {
 constexpr Hinge kHinges[] = {
     {-3.691754, 0.089520}, {-1.515124, 0.294119}, {-0.488114, 0.493647}, {0.188289, 0.693090}};
 
-bool isWrist(const Skeleton& skeleton, int joint) {
-  return std::ranges::any_of(skeleton.radii, [&](const RadiusDriver& d) { return d.wrist_joint == joint; });
-}
-
-/// Joint and direction that a coordinate is for MuJoCo: hinges of their own for revolute joints and wrists.
+/// Joint and direction that a coordinate is for MuJoCo.
 std::string transmission(const Skeleton& skeleton, const Coordinate& c, int index) {
   const Joint& joint = skeleton.joints[std::size_t(c.joint)];
-  if (joint.type == JointType::Revolute || isWrist(skeleton, c.joint)) return "joint=\"" + c.name + "\" gear=\"1\"";
+  if (mjcfHasHinges(skeleton, c.joint)) return "joint=\"" + c.name + "\" gear=\"1\"";
   const Eigen::Vector3d& axis = skeleton.coordinates[std::size_t(index)].axis;
   char gear[96];
   std::snprintf(gear, sizeof gear, "%.12g %.12g %.12g", axis.x(), axis.y(), axis.z());
@@ -56,6 +52,15 @@ double hingesMoment_Nm(const PassiveMoment& m, double length_rad) {
 
 }  // namespace
 
+bool mjcfHasHinges(const Skeleton& skeleton, int joint) {
+  const Joint& j = skeleton.joints[std::size_t(joint)];
+  if (j.type != JointType::Ball) return j.type == JointType::Revolute;
+  if (std::ranges::any_of(skeleton.radii, [&](const RadiusDriver& d) { return d.wrist_joint == joint; })) return true;
+  constexpr double kFree_rad = 1.5;  // 86 deg
+  const Coordinate& middle = skeleton.coordinates[std::size_t(j.first_coordinate + 1)];
+  return std::max(middle.athlete_max_rad, -middle.athlete_min_rad) < kFree_rad;
+}
+
 Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Eigen::VectorXd& clinical) {
   const Skeleton& s = model.skeleton;
   const Posture posture = postureFromClinical(s, clinical);
@@ -64,7 +69,7 @@ Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Eigen::VectorX
     const Joint& joint = s.joints[std::size_t(j)];
     const int first = joint.first_coordinate;
     if (joint.type == JointType::Free) continue;
-    if (joint.type == JointType::Revolute || isWrist(s, j)) {
+    if (mjcfHasHinges(s, j)) {
       for (int i = first; i < first + joint.coordinate_count; ++i)
         result[i] = hingesMoment_Nm(model.passive_moments[std::size_t(i)], clinical[i]);
       continue;

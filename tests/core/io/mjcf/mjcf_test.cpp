@@ -35,8 +35,8 @@ bool isPlain(const MusculotendonUnit& unit) {
 TEST(Mjcf, HasEveryBodyJointAndUnit) {
   const std::string xml = mjcfText(reference());
   EXPECT_EQ(count(xml, "<body "), 23);
-  EXPECT_EQ(count(xml, "type=\"ball\""), 11);   // 13 less the wrists
-  EXPECT_EQ(count(xml, "type=\"hinge\""), 13);  // 5 revolute, 2 x 3 of the wrists, 2 patellae
+  EXPECT_EQ(count(xml, "type=\"ball\""), 2);    // shoulders
+  EXPECT_EQ(count(xml, "type=\"hinge\""), 40);  // 5 revolute, 11 x 3 of the other ball joints, 2 patellae
   EXPECT_EQ(count(xml, "<spatial "), 282);
   EXPECT_EQ(count(xml, "<muscle "), 282);
   EXPECT_EQ(count(xml, "<body "), count(xml, "</body>"));
@@ -204,7 +204,7 @@ TEST(MjcfInMujoco, StructuresOfOneCoordinateAreWithinThreePercentOfTheirEnd) {
         const Posture q = postureFromClinical(s, clinical);
         mujoco->setPositions(mujoco->positions(q));
         const Eigen::VectorXd theirs = mujoco->actuatorMoments_Nm();
-        const bool ball = joint.type == JointType::Ball && withoutSide(joint.name) != "wrist";
+        const bool ball = !mjcfHasHinges(s, s.coordinates[std::size_t(joint.first_coordinate)].joint);
         const double theirs_Nm =
             ball ? Eigen::Vector3d{theirs.segment<3>(joint.first_coordinate)}.dot(c.axis) : theirs[i];
         const double share = std::abs(theirs_Nm - ours_Nm) / std::max(m.upper_Nm, m.lower_Nm);
@@ -232,7 +232,7 @@ TEST(MjcfInMujoco, StructuresAreThoseThatTheReportIsMadeOf) {
     for (const Joint& joint : s.joints) {
       if (joint.type == JointType::Free) continue;
       const int first = joint.first_coordinate;
-      if (joint.type == JointType::Ball && withoutSide(joint.name) != "wrist") {
+      if (!mjcfHasHinges(s, s.coordinates[std::size_t(joint.first_coordinate)].joint)) {
         const Eigen::Matrix3d R_JB = rotationFromVector<double>(q.segment<3>(first));
         const Eigen::Vector3d t_J = R_JB * theirs.segment<3>(first);
         const Eigen::Vector3d forces = angleRates(s, joint, clinical.segment<3>(first)).transpose() * t_J;
