@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clinical/case/stage.h"
 #include "clinical/exam/physical_exam.h"
 #include "core/job.h"
 #include "core/skeleton/fit/fit_skeleton.h"
@@ -14,15 +15,6 @@
 #include "imaging/rig/triangulate.h"
 
 namespace sinew {
-
-/// The stages of a case, in their order.
-enum class Stage { Images, Calibration, Landmarks, Skeleton, Musculature, Exam, Report };
-inline constexpr std::array kStages = {Stage::Images,      Stage::Calibration, Stage::Landmarks, Stage::Skeleton,
-                                       Stage::Musculature, Stage::Exam,        Stage::Report};
-std::string nameOf(Stage stage);   ///< "images", ...: files and command line
-std::string titleOf(Stage stage);  ///< "Images", ...: screen
-/// @throws InputError with the nearest names.
-Stage stageFromName(std::string_view name);
 
 /// A file of the case folder, pinned by its content.
 struct FileReference {
@@ -46,9 +38,9 @@ struct CaseImage {
   friend bool operator==(const CaseImage&, const CaseImage&) = default;
 };
 
-/// Images of a bead phantom in the same two views, and its known bead positions (CSV name,x_mm,y_mm,z_mm).
+/// Images of a bead phantom in the same views, one each, and its known bead positions (CSV name,x_mm,y_mm,z_mm).
 struct PhantomImages {
-  std::array<FileReference, 2> images;
+  std::vector<FileReference> images;
   FileReference beads;
   friend bool operator==(const PhantomImages&, const PhantomImages&) = default;
 };
@@ -74,7 +66,7 @@ struct Truth {
 struct Case {
   Patient patient;
   // entered
-  std::vector<CaseImage> images;            ///< view 1 (frontal), view 2 (lateral)
+  std::vector<CaseImage> images;            ///< view 1 (frontal), view 2 (lateral), others
   std::optional<PhantomImages> phantom;     ///< calibrate from these ...
   std::optional<BiplanarRig> imported_rig;  ///< ... or take this ...; neither: geometry from the DICOM tags
   std::vector<Sighting> sightings;

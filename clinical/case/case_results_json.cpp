@@ -8,9 +8,6 @@
 namespace sinew {
 namespace {
 
-Json toJson(const Eigen::Vector2d& v) {
-  return {v.x(), v.y()};
-}
 Json toJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -27,29 +24,39 @@ Eigen::Vector3d vector3(const JsonReader& json) {
 
 /// Views are counted from 1 in files.
 int viewFromJson(const JsonReader& json) {
-  return json.integer(1, 2) - 1;
+  return json.integer(1, kMaxViews) - 1;
 }
 
 Json pointToJson(const TriangulatedLandmark& point) {
   Json covariance = Json::array();
   for (int i = 0; i < 3; ++i) covariance.push_back(toJson(Eigen::Vector3d{point.cov_W.row(i)}));
+  Json views = Json::array(), residuals = Json::array();
+  for (const auto& r : point.residuals) {
+    views.push_back(r.view + 1);
+    residuals.push_back({r.residual_px.x(), r.residual_px.y()});
+  }
   return {{"name", point.name},
           {"p_W_m", toJson(point.p_WL)},
           {"covariance_W_m2", covariance},
           {"reprojection_rms_px", numberOrNull(point.reprojection_rms_px)},
-          {"residual_px", {toJson(point.residual_px[0]), toJson(point.residual_px[1])}}};
+          {"views", views},
+          {"residual_px", residuals}};
 }
 
 TriangulatedLandmark pointFromJson(const JsonReader& json) {
-  json.allowOnly({"name", "p_W_m", "covariance_W_m2", "reprojection_rms_px", "residual_px"});
+  json.allowOnly({"name", "p_W_m", "covariance_W_m2", "reprojection_rms_px", "views", "residual_px"});
   TriangulatedLandmark point;
   point.name = json["name"].text();
   point.p_WL = vector3(json["p_W_m"]);
   const auto rows = json["covariance_W_m2"].items(3);
   for (int i = 0; i < 3; ++i) point.cov_W.row(i) = vector3(rows[static_cast<std::size_t>(i)]);
   point.reprojection_rms_px = json["reprojection_rms_px"].numberOrNaN();
-  const auto residuals = json["residual_px"].items(2);
-  point.residual_px = {vector2(residuals[0]), vector2(residuals[1])};
+  for (const auto& residual : json["residual_px"].items())
+    point.residuals.push_back({int(point.residuals.size()), vector2(residual)});
+  if (const auto stated = json.find("views")) {  // cases that knew two views only do not have them
+    const auto views = stated->items(point.residuals.size());
+    for (std::size_t i = 0; i < views.size(); ++i) point.residuals[i].view = viewFromJson(views[i]);
+  }
   return point;
 }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "core/model/model.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/text.h"
 
 namespace sinew {
 namespace {
@@ -22,14 +22,8 @@ class Findings {
   Warnings warnings_;
 };
 
-std::string twoDecimals(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 std::string mm(double length_m) {
-  return twoDecimals(1000 * length_m) + " mm";
+  return fixed(1000 * length_m, 2) + " mm";
 }
 
 bool isSegment(const Skeleton& s, int index) {
@@ -134,7 +128,7 @@ void checkUnit(const MusculotendonUnit& unit, const Skeleton& s, const std::vect
   const double fiber = equilibrium(unit, length_m, 0).normalized_fiber_length;
   if (fiber > 1.15 || fiber < 0.3)  // what the fit of lengths leaves out in the reference, with a margin for shapes
     findings.add("muscle_standing_fiber", unit.name,
-                 "its fibre is at " + twoDecimals(fiber) + " of its optimal length when standing upright" +
+                 "its fibre is at " + fixed(fiber, 2) + " of its optimal length when standing upright" +
                      (shortened ? ", as expected of a muscle that the examination found short" : ""));
   if (length_m > longestLength_m(unit))
     findings.add("muscle_overstretched", unit.name,

@@ -71,7 +71,7 @@ void markDone(Case& c, Stage stage, const Warnings& warnings) {
   record.outcome = Outcome::Converged;
   record.warnings = warnings;
   c.stages[stage] = record;
-  c.stages[stage].input_hash = inputHash(c, stage);
+  c.stages[stage].input_hash = inputHash(c, stage, resourceDir());
 }
 
 Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
@@ -94,7 +94,7 @@ Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
 
   c.rig = rig;
   c.landmarks = triangulateAll(rig, c.sightings);
-  c.skeleton = fitSkeleton(reference.skeleton, rig.views, observations(c.sightings), priors);
+  c.skeleton = fitSkeleton(reference.skeleton, exactViews(projectionsOf(rig)), observations(c.sightings), priors);
   const Model fitted = deformedModel(reference, c.skeleton->shape);
   c.exam_fit = applyExam(fitted, c.exam, protocol, kMass_kg);
   std::filesystem::create_directories(folder / "results");

@@ -5,6 +5,7 @@
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_results_json.h"
 #include "clinical/exam/physical_exam.h"
+#include "clinical/pipeline/patient_fit.h"
 #include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
@@ -31,10 +32,8 @@ void addFit(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const BiplanarRig rig = loadRig(o->rig);
-      std::vector<LandmarkObservation> observations;
-      for (const auto& s : loadSightings(o->sightings)) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-      const auto fit = fitSkeleton(session.reference().skeleton, rig.views, observations,
-                                   loadShapePriors(session.resourceDir()), {}, session.job());
+      const auto sightings = loadSightings(o->sightings);
+      const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
       std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
                          fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) +

@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace sinew {
 
 class RadiographPane;
 
-/// Placing landmarks in both radiographs: click places, drag moves (one undo step on release), Delete removes; the
-/// other view shows where the same point must lie; residuals follow the hand.
+/// Placing landmarks in the radiographs, two at a time: click places, drag moves (one undo step on release), Delete
+/// removes; the other view shows where the same point must lie; residuals follow the hand.
 class LandmarksPage : public StagePage {
   Q_OBJECT
  public:
@@ -27,7 +28,7 @@ class LandmarksPage : public StagePage {
 
   void importSightings(const std::filesystem::path& file);
   void exportSightings(const std::filesystem::path& file);
-  /// The next landmark of the list that is not placed in both views, after the selected one.
+  /// The next landmark of the list that is not placed in two views, after the selected one.
   void selectNextMissing();
 
  protected:
@@ -37,10 +38,10 @@ class LandmarksPage : public StagePage {
 
  private:
   struct Finding {
-    bool seen[2] = {false, false};
+    std::set<int> seen;  ///< views
     double residual_px = std::numeric_limits<double>::quiet_NaN();
     double sd_mm = std::numeric_limits<double>::quiet_NaN();
-    std::array<Eigen::Vector2d, 2> residual;
+    std::map<int, Eigen::Vector2d> residual;  ///< by view
   };
   void connectPane(RadiographPane& pane);
   void buildList(QWidget& side);
@@ -50,8 +51,10 @@ class LandmarksPage : public StagePage {
   void refreshCard();
   void filterRows();
   void step(int direction);
-  void removeSelected(bool both_views);
-  void place(int view, const std::string& name, const QPointF& uv_px);
+  void removeSelected(bool all_views);
+  int viewCount() const;
+  void refreshColumns();
+  void place(RadiographPane& pane, const std::string& name, const QPointF& uv_px);
 
   QString titleOfLandmark(const std::string& name) const;
 

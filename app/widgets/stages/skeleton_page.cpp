@@ -20,7 +20,7 @@
 namespace sinew {
 
 SkeletonPage::SkeletonPage(Workspace& workspace)
-    : StagePage{workspace, Stage::Skeleton, tr("Bones fitted to the landmarks of both radiographs.")} {
+    : StagePage{workspace, Stage::Skeleton, tr("Bones fitted to the landmarks of the radiographs.")} {
   auto* views = new QHBoxLayout;
   views->setSpacing(12);
   model_ = new ModelView{"skeleton_model", false};
@@ -28,6 +28,8 @@ SkeletonPage::SkeletonPage(Workspace& workspace)
   for (int view = 0; view < 2; ++view) {
     panes_[std::size_t(view)] = new RadiographPane{workspace, view, false};
     views->addWidget(panes_[std::size_t(view)], 4);
+    connect(panes_[std::size_t(view)], &RadiographPane::viewChanged, this,
+            [this] { refreshOverlays(this->workspace().patientModel().get()); });
   }
   table_ = makeTable("figure_table", {tr("Figure"), tr("Right"), tr("95 % interval"), tr("Left"), tr("95 % interval"),
                                       tr("Right − left"), tr("Unit")});
@@ -58,10 +60,11 @@ void SkeletonPage::refresh() {
 
 void SkeletonPage::refreshOverlays(const Model* model) {
   const Case& c = shownCase();
-  for (int view = 0; view < 2; ++view) {
+  for (auto* pane : panes_) {
+    const std::size_t view = std::size_t(pane->viewIndex());
     std::vector<LineOverlay> lines;
-    if (model && c.rig) {
-      const View& geometry = c.rig->views[std::size_t(view)];
+    if (model && c.rig && view < c.rig->views.size()) {
+      const View& geometry = c.rig->views[view];
       for (const auto& contour : boneContours(supportedBones(*model, c.sightings),
                                               segmentPoses(model->skeleton, c.skeleton->posture), geometry))
         for (const auto& line : contour.lines) {
@@ -70,7 +73,7 @@ void SkeletonPage::refreshOverlays(const Model* model) {
           lines.push_back(std::move(overlay));
         }
     }
-    panes_[std::size_t(view)]->view().setLines(std::move(lines));
+    pane->view().setLines(std::move(lines));
   }
 }
 
