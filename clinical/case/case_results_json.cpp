@@ -124,8 +124,8 @@ std::vector<OutsideBone> outsideFromJson(const JsonReader& json) {
   std::vector<OutsideBone> bones;
   for (const auto& b : json.items()) {
     b.allowOnly({"bone", "misfit", "landmark", "distance_mm"});
-    bones.push_back({b["bone"].text(), b["misfit"].numberOrNaN(), b["landmark"].text(),
-                     b["distance_mm"].numberOrNaN()});
+    bones.push_back(
+        {b["bone"].text(), b["misfit"].numberOrNaN(), b["landmark"].text(), b["distance_mm"].numberOrNaN()});
   }
   return bones;
 }

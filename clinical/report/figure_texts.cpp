@@ -58,9 +58,7 @@ std::vector<std::string> adviceTexts(const std::vector<FigureAdvice>& advice, co
     const std::string name = named(a.quantity, a.side, norms);
     group.figures.push_back(group.figures.empty() ? name : lowerFirst(name));
   }
-  std::ranges::stable_sort(groups, {}, [](const Group& g) {
-    return std::pair{!g.enough, g.landmarks.size()};
-  });
+  std::ranges::stable_sort(groups, {}, [](const Group& g) { return std::pair{!g.enough, g.landmarks.size()}; });
   std::vector<std::string> texts;
   for (const Group& group : groups) {
     std::vector<std::string> titles;

@@ -99,7 +99,8 @@ ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const Norm
       "undetermined: the images do not show it.";
   const auto from_picks = triangulatedTexts(fit.figures, norms);
   if (!from_picks.empty())
-    table.footnote += " \u00A7 a bone is outside the model of the software: the figure is that of the picks themselves.";
+    table.footnote +=
+        " \u00A7 a bone is outside the model of the software: the figure is that of the picks themselves.";
   for (const auto& text : from_picks) table.footnote += " " + text + ".";
   return table;
 }

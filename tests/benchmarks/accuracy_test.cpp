@@ -56,7 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Rigs, Accuracy,
                          testing::Values(Rig{"cone_beam", test::coneBeamPair}, Rig{"slot_scan", test::slotScanPair}),
                          [](const auto& tested) { return std::string{tested.param.name}; });
 
-// ---- bones outside the population -----------------------------------------------------------------------------------
+// ---- bones outside the population
+// -----------------------------------------------------------------------------------
 
 class Deformed : public testing::TestWithParam<std::size_t> {};
 
@@ -80,19 +81,20 @@ TEST_P(Deformed, LengthsAndAxesHaveNoBias) {
       if (isAxis(row.quantity)) EXPECT_LT(std::abs(row.bias), 0.5 + chance) << amount << " " << row.quantity;
       covered += row.coverage * row.determined, all += row.determined;
     }
-    EXPECT_GT(covered / all, 0.85) << amount;  // 95 % less three SD of some 50 independent ones
+    EXPECT_GT(covered / all, 0.85) << amount;         // 95 % less three SD of some 50 independent ones
     EXPECT_LE(study.left_out, kDraws / 4) << amount;  // every pick is true
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bones, Deformed, testing::Range(std::size_t{0}, deformities().size()), [](const auto& tested) {
-  std::string name;
-  for (const char c : deformities()[tested.param].name) {
-    if (c == ',' || c == ':') break;
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  }
-  return name + std::to_string(tested.param);
-});
+INSTANTIATE_TEST_SUITE_P(Bones, Deformed, testing::Range(std::size_t{0}, deformities().size()),
+                         [](const auto& tested) {
+                           std::string name;
+                           for (const char c : deformities()[tested.param].name) {
+                             if (c == ',' || c == ':') break;
+                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+                           }
+                           return name + std::to_string(tested.param);
+                         });
 
 }  // namespace
 }  // namespace sinew

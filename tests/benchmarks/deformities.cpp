@@ -103,8 +103,8 @@ Vector3d neckOf(const Skeleton& body, int side) {
 /// The hip's centre against the pelvis: outwards, upwards, forwards.
 void moveHip(Skeleton& body, int side, const Vector3d& forward_up_out_m) {
   Joint& hip = body.joints[std::size_t(body.jointIndex("hip" + suffixOf(side)))];
-  hip.X_PJ.translation() += Vector3d{forward_up_out_m.x(), forward_up_out_m.y(),
-                                     side == 0 ? forward_up_out_m.z() : -forward_up_out_m.z()};
+  hip.X_PJ.translation() +=
+      Vector3d{forward_up_out_m.x(), forward_up_out_m.y(), side == 0 ? forward_up_out_m.z() : -forward_up_out_m.z()};
 }
 
 const Vector3d kVarus = Vector3d::UnitX(), kApexInFront = -Vector3d::UnitZ();
@@ -120,84 +120,102 @@ std::vector<Deformity> all() {
   add("hip subluxated upwards and outwards", "mm", usual, [](Skeleton& b, double mm, int s) {
     moveHip(b, s, 1e-3 * mm * Vector3d{-0.2, 0.6, 0.77}.normalized());
   });
-  add("tibia vara (+), valga (-), 60 mm below the knee", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "tibia", s, kVarus, deg * kRadPerDeg, 0.10, 0.20);
-  });
-  add("tibial procurvatum (+), recurvatum (-), 60 mm below the knee", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "tibia", s, kApexInFront, deg * kRadPerDeg, 0.10, 0.20);
-  });
-  add("femoral neck longer (+), shorter (-)", "mm", usual, [](Skeleton& b, double mm, int s) {
-    moveHead(b, s, -1e-3 * mm * neckOf(b, s).normalized());
-  });
-  add("sagittal bow of the femur", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "femur", s, kApexInFront, deg * kRadPerDeg, 0.15, 0.85);
-  });
-  add("frontal bow of the femur", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.15, 0.85);
-  });
+  add("tibia vara (+), valga (-), 60 mm below the knee", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "tibia", s, kVarus, deg * kRadPerDeg, 0.10, 0.20); });
+  add("tibial procurvatum (+), recurvatum (-), 60 mm below the knee", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "tibia", s, kApexInFront, deg * kRadPerDeg, 0.10, 0.20); });
+  add("femoral neck longer (+), shorter (-)", "mm", usual,
+      [](Skeleton& b, double mm, int s) { moveHead(b, s, -1e-3 * mm * neckOf(b, s).normalized()); });
+  add("sagittal bow of the femur", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "femur", s, kApexInFront, deg * kRadPerDeg, 0.15, 0.85); });
+  add("frontal bow of the femur", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.15, 0.85); });
   // ---- kept aside
-  add("coxa vara (+), valga (-), in the neck", "deg", usual, [](Skeleton& b, double deg, int s) {
-    const Vector3d n = neckOf(b, s);
-    const Eigen::AngleAxisd turn{deg * kRadPerDeg, Vector3d::UnitX()};
-    moveHead(b, s, n - turn.inverse() * n);
-  }, false);
-  add("slipped epiphysis: head behind and below", "mm", {10, 15}, [](Skeleton& b, double mm, int s) {
-    moveHead(b, s, 1e-3 * mm * Vector3d{-0.8, -0.5, -0.33}.normalized());
-  }, false);
-  add("hip subluxated backwards", "mm", usual, [](Skeleton& b, double mm, int s) {
-    moveHip(b, s, 1e-3 * mm * Vector3d{-0.9, 0.44, 0});
-  }, false);
-  add("high dislocation of both hips", "mm", {40}, [](Skeleton& b, double mm, int s) {
-    moveHip(b, s, 1e-3 * mm * Vector3d{-0.25, 0.9, 0.36});
-  }, false, true);
-  add("femur in varus (+), valgus (-), in the middle", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.47, 0.55);
-  }, false);
-  add("subtrochanteric varus (+), valgus (-)", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.17, 0.25);
-  }, false);
-  add("supracondylar procurvatum (+), recurvatum (-)", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "femur", s, kApexInFront, deg * kRadPerDeg, 0.80, 0.90);
-  }, false);
-  add("tibia bent in its middle, oblique plane", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "tibia", s, (kVarus + kApexInFront).normalized(), deg * kRadPerDeg, 0.45, 0.55);
-  }, false);
-  add("supramalleolar varus (+), valgus (-)", "deg", usual, [](Skeleton& b, double deg, int s) {
-    bend(b, "tibia", s, kVarus, deg * kRadPerDeg, 0.80, 0.90);
-  }, false);
-  add("genu recurvatum from the tibial slope", "deg", {20}, [](Skeleton& b, double deg, int s) {
-    bend(b, "tibia", s, kApexInFront, -deg * kRadPerDeg, 0.09, 0.15);
-  }, false, true);
-  add("tibial torsion", "deg", {40, -40}, [](Skeleton& b, double deg, int s) {
-    twist(b, "tibia", s, deg * kRadPerDeg, 0.2, 0.8);
-  }, false);
-  add("femoral torsion below the trochanters", "deg", {30, -30}, [](Skeleton& b, double deg, int s) {
-    twist(b, "femur", s, deg * kRadPerDeg, 0.18, 0.30);
-  }, false);
-  add("short femur", "mm", {-60}, [](Skeleton& b, double mm, int s) {
-    lengthen(b, "femur", s, 1e-3 * mm, 0.25, 0.75);
-  }, false);
-  add("small hemipelvis", "%", {-10, -15}, [](Skeleton& b, double percent, int s) {
-    move(b, "pelvis", 0, [&](const Vector3d& p) {  // towards the middle of the sacrum, on one side only
-      const Vector3d centre{-0.08, 0.05, 0};
-      const double out = s == 0 ? p.z() : -p.z();
-      return Moved{out > 0 ? Vector3d{centre + (1 + percent / 100 * quintic(out / 0.03)) * (p - centre)} : p};
-    });
-  }, false);
-  add("Blount: varus, procurvatum and inward torsion of both tibiae", "deg", {10, 15},
+  add(
+      "coxa vara (+), valga (-), in the neck", "deg", usual,
+      [](Skeleton& b, double deg, int s) {
+        const Vector3d n = neckOf(b, s);
+        const Eigen::AngleAxisd turn{deg * kRadPerDeg, Vector3d::UnitX()};
+        moveHead(b, s, n - turn.inverse() * n);
+      },
+      false);
+  add(
+      "slipped epiphysis: head behind and below", "mm", {10, 15},
+      [](Skeleton& b, double mm, int s) {
+        moveHead(b, s, 1e-3 * mm * Vector3d{-0.8, -0.5, -0.33}.normalized());
+      },
+      false);
+  add(
+      "hip subluxated backwards", "mm", usual,
+      [](Skeleton& b, double mm, int s) {
+        moveHip(b, s, 1e-3 * mm * Vector3d{-0.9, 0.44, 0});
+      },
+      false);
+  add(
+      "high dislocation of both hips", "mm", {40},
+      [](Skeleton& b, double mm, int s) {
+        moveHip(b, s, 1e-3 * mm * Vector3d{-0.25, 0.9, 0.36});
+      },
+      false, true);
+  add(
+      "femur in varus (+), valgus (-), in the middle", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.47, 0.55); }, false);
+  add(
+      "subtrochanteric varus (+), valgus (-)", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "femur", s, kVarus, deg * kRadPerDeg, 0.17, 0.25); }, false);
+  add(
+      "supracondylar procurvatum (+), recurvatum (-)", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "femur", s, kApexInFront, deg * kRadPerDeg, 0.80, 0.90); }, false);
+  add(
+      "tibia bent in its middle, oblique plane", "deg", usual,
+      [](Skeleton& b, double deg, int s) {
+        bend(b, "tibia", s, (kVarus + kApexInFront).normalized(), deg * kRadPerDeg, 0.45, 0.55);
+      },
+      false);
+  add(
+      "supramalleolar varus (+), valgus (-)", "deg", usual,
+      [](Skeleton& b, double deg, int s) { bend(b, "tibia", s, kVarus, deg * kRadPerDeg, 0.80, 0.90); }, false);
+  add(
+      "genu recurvatum from the tibial slope", "deg", {20},
+      [](Skeleton& b, double deg, int s) { bend(b, "tibia", s, kApexInFront, -deg * kRadPerDeg, 0.09, 0.15); }, false,
+      true);
+  add(
+      "tibial torsion", "deg", {40, -40},
+      [](Skeleton& b, double deg, int s) { twist(b, "tibia", s, deg * kRadPerDeg, 0.2, 0.8); }, false);
+  add(
+      "femoral torsion below the trochanters", "deg", {30, -30},
+      [](Skeleton& b, double deg, int s) { twist(b, "femur", s, deg * kRadPerDeg, 0.18, 0.30); }, false);
+  add(
+      "short femur", "mm", {-60},
+      [](Skeleton& b, double mm, int s) { lengthen(b, "femur", s, 1e-3 * mm, 0.25, 0.75); }, false);
+  add(
+      "small hemipelvis", "%", {-10, -15},
+      [](Skeleton& b, double percent, int s) {
+        move(b, "pelvis", 0, [&](const Vector3d& p) {  // towards the middle of the sacrum, on one side only
+          const Vector3d centre{-0.08, 0.05, 0};
+          const double out = s == 0 ? p.z() : -p.z();
+          return Moved{out > 0 ? Vector3d{centre + (1 + percent / 100 * quintic(out / 0.03)) * (p - centre)} : p};
+        });
+      },
+      false);
+  add(
+      "Blount: varus, procurvatum and inward torsion of both tibiae", "deg", {10, 15},
       [](Skeleton& b, double deg, int s) {
         bend(b, "tibia", s, kVarus, deg * kRadPerDeg, 0.10, 0.17);
         bend(b, "tibia", s, kApexInFront, 0.6 * deg * kRadPerDeg, 0.10, 0.17);
         twist(b, "tibia", s, -deg * kRadPerDeg, 0.2, 0.5);
-      }, false, true);
-  add("dysplastic leg: subluxated hip, short neck in varus, bowed femur, valgus tibia", "deg and mm", {10, 15},
+      },
+      false, true);
+  add(
+      "dysplastic leg: subluxated hip, short neck in varus, bowed femur, valgus tibia", "deg and mm", {10, 15},
       [](Skeleton& b, double amount, int s) {
         const Vector3d n = neckOf(b, s);
         moveHip(b, s, 1e-3 * amount * Vector3d{0, 0.7, 0.71});
         moveHead(b, s, n - Eigen::AngleAxisd{-0.7 * amount * kRadPerDeg, Vector3d::UnitX()} * (0.85 * n));
         bend(b, "femur", s, kApexInFront, amount * kRadPerDeg, 0.2, 0.8);
         bend(b, "tibia", s, kVarus, -amount * kRadPerDeg, 0.3, 0.6);
-      }, false);
+      },
+      false);
   return list;
 }
 

@@ -12,20 +12,23 @@ namespace {
 
 void print(const sinew::DeformityStudy& study, const char* only) {
   std::printf("\n### %s, %+.0f %s\n\n", study.deformity.c_str(), study.amount, study.unit.c_str());
-  std::printf("%d draws, %d not converged, a bone outside the model said in %d, %d true picks left out, median %.0f ms.\n\n",
-              study.draws, study.not_converged, study.outside, study.left_out, study.median_ms);
+  std::printf(
+      "%d draws, %d not converged, a bone outside the model said in %d, %d true picks left out, median %.0f ms.\n\n",
+      study.draws, study.not_converged, study.outside, study.left_out, study.median_ms);
   std::printf("| figure | unit | determined | triangulated | bias | SD | 95 %% half width | coverage |\n");
   std::printf("|---|---|---:|---:|---:|---:|---:|---:|\n");
   for (const auto& row : study.rows)
     if (!only || row.quantity == only)
-      std::printf("| %s | %s | %d of %d | %d | %+.2f | %.2f | %.2f | %.0f %% |\n", row.quantity.c_str(), row.unit.c_str(),
-                  row.determined, row.determined + row.undetermined, row.triangulated, row.bias, row.sd,
-                  row.half_width95, 100 * row.coverage);
+      std::printf("| %s | %s | %d of %d | %d | %+.2f | %.2f | %.2f | %.0f %% |\n", row.quantity.c_str(),
+                  row.unit.c_str(), row.determined, row.determined + row.undetermined, row.triangulated, row.bias,
+                  row.sd, row.half_width95, 100 * row.coverage);
 }
 
 /// One line a deformity: the worst of its lengths and axes, the worst coverage, and what is undetermined.
 void printLine(const sinew::DeformityStudy& study) {
-  const auto isAxis = [](const std::string& q) { return q == "hka" || q == "pelvic_obliquity" || q == "knee_flexion"; };
+  const auto isAxis = [](const std::string& q) {
+    return q == "hka" || q == "pelvic_obliquity" || q == "knee_flexion";
+  };
   double mm = 0, deg = 0, other = 0, least = 1, covered = 0, all = 0;
   std::string least_of, open;
   for (const auto& row : study.rows) {
@@ -37,9 +40,9 @@ void printLine(const sinew::DeformityStudy& study) {
     }
     if (2 * row.undetermined > study.draws) open += (open.empty() ? "" : ", ") + row.quantity;
   }
-  std::printf("| %s | %+.0f %s | %+.2f | %+.2f | %+.2f | %.0f %% | %.0f %% %s | %d | %d | %s |\n", study.deformity.c_str(),
-              study.amount, study.unit.c_str(), mm, deg, other, 100 * covered / all, 100 * least, least_of.c_str(),
-              study.outside, study.left_out, open.c_str());
+  std::printf("| %s | %+.0f %s | %+.2f | %+.2f | %+.2f | %.0f %% | %.0f %% %s | %d | %d | %s |\n",
+              study.deformity.c_str(), study.amount, study.unit.c_str(), mm, deg, other, 100 * covered / all,
+              100 * least, least_of.c_str(), study.outside, study.left_out, open.c_str());
   std::fflush(stdout);
 }
 
@@ -70,7 +73,8 @@ int main(int argc, char** argv) {
       std::printf("\n%s\n", used ? "## Looked at while the model was designed" : "## Kept aside");
       if (!whole)
         std::printf(
-            "\n| deformity | amount | worst bias of lengths, mm | of axes, deg | of other angles, deg | coverage | least "
+            "\n| deformity | amount | worst bias of lengths, mm | of axes, deg | of other angles, deg | coverage | "
+            "least "
             "coverage | outside | left out | undetermined |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---|\n");
       for (const auto& deformity : sinew::deformities()) {
         if (deformity.used_for_design != used) continue;

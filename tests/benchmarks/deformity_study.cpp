@@ -115,8 +115,7 @@ DeformityStudy studyDeformity(const std::filesystem::path& resource_dir, const s
       continue;
     }
     study.outside += !trial.fit.outside.empty();
-    for (const auto& warning : trial.fit.warnings)
-      study.left_out += warning.message.ends_with("and was left out");
+    for (const auto& warning : trial.fit.warnings) study.left_out += warning.message.ends_with("and was left out");
     const int side = sideOfDraw(deformity, i);
     for (std::size_t f = 0; f < trial.truth.size(); ++f) {
       const BoneFigure& truth = trial.truth[f];
@@ -129,13 +128,13 @@ DeformityStudy studyDeformity(const std::filesystem::path& resource_dir, const s
       // A difference right minus left has the sign of the deformed side, so that errors of both add up.
       BoneFigure estimate = trial.fit.figures[f];
       const double sign = truth.quantity == "leg_length_difference" && side == 1 ? -1 : 1;
-      addError(*at, sign * truth.value,
-               sign > 0 ? estimate : [&] {
-                 estimate.value = -estimate.value;
-                 std::swap(estimate.lower95, estimate.upper95);
-                 estimate.lower95 = -estimate.lower95, estimate.upper95 = -estimate.upper95;
-                 return estimate;
-               }());
+      addError(
+          *at, sign * truth.value, sign > 0 ? estimate : [&] {
+            estimate.value = -estimate.value;
+            std::swap(estimate.lower95, estimate.upper95);
+            estimate.lower95 = -estimate.lower95, estimate.upper95 = -estimate.upper95;
+            return estimate;
+          }());
     }
   }
   for (auto& row : study.rows) finish(row);

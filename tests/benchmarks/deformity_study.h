@@ -12,10 +12,10 @@ namespace sinew {
 struct DeformityRow {
   std::string quantity, unit;
   int determined = 0, undetermined = 0;
-  int triangulated = 0;      ///< of the determined ones: taken from the picks
-  double bias = 0, sd = 0;   ///< of estimate minus truth, over the determined ones
-  double half_width95 = 0;   ///< mean
-  double coverage = 0;       ///< share of the determined ones whose interval holds the truth
+  int triangulated = 0;     ///< of the determined ones: taken from the picks
+  double bias = 0, sd = 0;  ///< of estimate minus truth, over the determined ones
+  double half_width95 = 0;  ///< mean
+  double coverage = 0;      ///< share of the determined ones whose interval holds the truth
 };
 
 struct DeformityStudy {
@@ -23,8 +23,8 @@ struct DeformityStudy {
   double amount = 0;
   std::string unit;
   int draws = 0, not_converged = 0;
-  int outside = 0;    ///< draws with a bone said to be outside the model
-  int left_out = 0;   ///< picks left out as gross errors, all draws together; all picks are true
+  int outside = 0;   ///< draws with a bone said to be outside the model
+  int left_out = 0;  ///< picks left out as gross errors, all draws together; all picks are true
   double median_ms = 0;
   std::vector<DeformityRow> rows;
 };

@@ -17,11 +17,11 @@ std::string figureTable(const std::vector<BoneFigure>& figures) {
   std::vector<std::vector<std::string>> rows;
   const auto interval = [](double lower, double upper) { return fixed(lower, 1) + " ... " + fixed(upper, 1); };
   for (const auto& f : figures)
-    rows.push_back({f.quantity, f.side, f.unit, fixed(f.value, 1), interval(f.lower95, f.upper95),
-                    f.triangulated ? "picks" : "model",
-                    std::isfinite(f.other) ? fixed(f.other, 1) + " (" + interval(f.other_lower95, f.other_upper95) + ")"
-                                           : "",
-                    f.determined ? "" : "undetermined"});
+    rows.push_back(
+        {f.quantity, f.side, f.unit, fixed(f.value, 1), interval(f.lower95, f.upper95),
+         f.triangulated ? "picks" : "model",
+         std::isfinite(f.other) ? fixed(f.other, 1) + " (" + interval(f.other_lower95, f.other_upper95) + ")" : "",
+         f.determined ? "" : "undetermined"});
   return textTable({"quantity", "side", "unit", "estimate", "95 % interval", "from", "the other way", ""}, rows);
 }
 
@@ -52,11 +52,10 @@ void addFit(Commands& commands) {
       const auto sightings = loadSightings(o->sightings);
       const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
-      std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
-                         fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) +
-                         " parameters undetermined\n" +
-                         figureRemarks(fit, loadNorms(session.resourceDir()),
-                                       loadLandmarkProtocol(session.resourceDir()));
+      std::string text =
+          figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
+          fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) + " parameters undetermined\n" +
+          figureRemarks(fit, loadNorms(session.resourceDir()), loadLandmarkProtocol(session.resourceDir()));
       if (fit.outcome == Outcome::Converged && !o->output.empty()) {
         saveModel(deformedModel(session.reference(), fit.shape), o->output);
         text += "written " + o->output + "\n";

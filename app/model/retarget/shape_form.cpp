@@ -111,7 +111,8 @@ QString fieldMeaning(const ShapeField& field) {
   if (q == "neck_varus") text = tr("Bend in the neck itself, degrees; positive puts the head lower (coxa vara)");
   if (q == "neck_retroversion") text = tr("Bend in the neck itself, degrees; positive puts the head further behind");
   if (q == "bow_frontal") text = tr("Bow of the shaft in the frontal plane, degrees; positive has its apex outwards");
-  if (q == "bow_sagittal") text = tr("Bow of the shaft in the sagittal plane, degrees; positive has its apex in front");
+  if (q == "bow_sagittal")
+    text = tr("Bow of the shaft in the sagittal plane, degrees; positive has its apex in front");
   if (q == "distal_varus") text = tr("Frontal bend just above the ankle, degrees; positive is varus");
   if (q == "distal_procurvatum")
     text = tr("Sagittal bend just above the ankle, degrees; positive has its apex in front");

@@ -14,7 +14,7 @@
 namespace sinew {
 namespace {
 constexpr double kPerTurn = 1000;  // slider steps for a factor of e
-constexpr double kPerUnit = 10;  // degree or millimetre
+constexpr double kPerUnit = 10;    // degree or millimetre
 }  // namespace
 
 ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent}, unit_{look.unit} {

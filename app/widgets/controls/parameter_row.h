@@ -10,8 +10,8 @@ namespace sinew {
 
 class RangeSlider;
 
-/// One number with a slider and a field: a ratio on a logarithmic slider, an angle, or a length. A drag is told apart from what
-/// is meant to stay.
+/// One number with a slider and a field: a ratio on a logarithmic slider, an angle, or a length. A drag is told apart
+/// from what is meant to stay.
 class ParameterRow : public QWidget {
   Q_OBJECT
  public:

@@ -346,10 +346,12 @@ void LandmarksPage::refreshAdvice() {
   QStringList lines;
   if (c.rig && c.sightings.size() >= kFewest) {
     try {
-      const SkeletonFit fit = fitPatient(workspace().reference()->skeleton, *c.rig, c.sightings, workspace().resourceDir());
+      const SkeletonFit fit =
+          fitPatient(workspace().reference()->skeleton, *c.rig, c.sightings, workspace().resourceDir());
       for (const auto& text : adviceTexts(fit.advice, workspace().norms(), protocol_))
         lines << QString::fromStdString(text);
-      if (fit.outcome == Outcome::Converged && lines.isEmpty()) lines << tr("These landmarks determine every figure.");
+      if (fit.outcome == Outcome::Converged && lines.isEmpty())
+        lines << tr("These landmarks determine every figure.");
     } catch (const InputError&) {
       lines.clear();  // none of them is a landmark of the skeleton; the stage itself says so
     }

@@ -57,7 +57,8 @@ class LandmarksPage : public StagePage {
   int viewCount() const;
   void refreshColumns();
   void place(RadiographPane& pane, const std::string& name, const QPointF& uv_px);
-  double sigmaOfPick(RadiographPane& pane, const std::string& name);  ///< what the protocol says of a click, in pixels
+  double sigmaOfPick(RadiographPane& pane,
+                     const std::string& name);  ///< what the protocol says of a click, in pixels
 
   QString titleOfLandmark(const std::string& name) const;
 
@@ -68,7 +69,7 @@ class LandmarksPage : public StagePage {
   QTableWidget* table_;
   QLineEdit* search_;
   QLabel *progress_, *card_title_, *card_text_, *rms_, *advice_;
-  QTimer* advice_timer_;             ///< the hand must rest before anything is fitted
+  QTimer* advice_timer_;              ///< the hand must rest before anything is fitted
   std::vector<Sighting> advised_on_;  ///< what the advice on the page was made from
   QPushButton* remove_;
   int last_view_ = 0;  ///< the one that was used last: Delete works there

@@ -29,9 +29,9 @@ QString comparisonText(const BoneFigure& f) {
   if (!std::isfinite(f.other)) return {};
   const QString other =
       QObject::tr("%1 (%2 to %3)").arg(figure(f.other, 1), figure(f.other_lower95, 1), figure(f.other_upper95, 1));
-  return f.triangulated ? QObject::tr("Taken from the picks themselves: the bone is outside the model. Fitted: %1")
-                              .arg(other)
-                        : QObject::tr("By the fitted bone. From the picks themselves: %1").arg(other);
+  return f.triangulated
+             ? QObject::tr("Taken from the picks themselves: the bone is outside the model. Fitted: %1").arg(other)
+             : QObject::tr("By the fitted bone. From the picks themselves: %1").arg(other);
 }
 
 }  // namespace
@@ -125,8 +125,9 @@ void SkeletonPage::refreshFigures() {
       value->setToolTip(comparisonText(f));
     } else {
       value->setForeground(colour::kMuted);
-      value->setToolTip(tr("The images do not say, or not well enough: %1 (%2 to %3)")
-                            .arg(figure(f.value, decimals), figure(f.lower95, decimals), figure(f.upper95, decimals)));
+      value->setToolTip(
+          tr("The images do not say, or not well enough: %1 (%2 to %3)")
+              .arg(figure(f.value, decimals), figure(f.lower95, decimals), figure(f.upper95, decimals)));
     }
   }
   for (const auto& [quantity, pair] : pairs)

@@ -19,20 +19,21 @@ struct BoneFigure {
   /// The value is taken from the picks themselves (triangulated), because a bone is outside the model's family of
   /// shapes; otherwise from the fitted skeleton.
   bool triangulated = false;
-  /// The same figure the other way, for comparison: triangulated if the value is fitted, fitted if it is triangulated.
-  /// NaN where the picks do not give it.
+  /// The same figure the other way, for comparison: triangulated if the value is fitted, fitted if it is
+  /// triangulated. NaN where the picks do not give it.
   double other = kNoFigure, other_lower95 = kNoFigure, other_upper95 = kNoFigure;
 };
 
 /// A bone whose picks agree with each other in both views, but not with any bone of the model.
 struct OutsideBone {
-  std::string segment;          ///< "femur_r"
-  double misfit = kNoFigure;        ///< root of (sum of squares of its residuals / their degrees of freedom); 1 is expected
-  std::string landmark;         ///< the one that lies farthest off ...
-  double distance_mm = kNoFigure;   ///< ... and how far
+  std::string segment;        ///< "femur_r"
+  double misfit = kNoFigure;  ///< root of (sum of squares of its residuals / their degrees of freedom); 1 is expected
+  std::string landmark;       ///< the one that lies farthest off ...
+  double distance_mm = kNoFigure;  ///< ... and how far
 };
 
-/// What would determine a figure that is not: the landmarks whose picks narrow its interval most, one after the other.
+/// What would determine a figure that is not: the landmarks whose picks narrow its interval most, one after the
+/// other.
 struct FigureAdvice {
   std::string quantity, side;
   std::vector<std::string> landmarks;  ///< in order of gain

@@ -47,8 +47,8 @@ PickReport reportOf(const FitEvidence& evidence) {
   PickReport report;
   std::vector<int> landmarks;
   for (const LandmarkPicks& picks : evidence.picks) landmarks.push_back(picks.landmark);
-  const PosedPoints posed = posePoints(evidence.reference, evidence.body, landmarks, evidence.z,
-                                       everything(evidence.body.count()));
+  const PosedPoints posed =
+      posePoints(evidence.reference, evidence.body, landmarks, evidence.z, everything(evidence.body.count()));
   std::vector<double> ratios;
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
     const LandmarkPicks& picks = evidence.picks[l];
@@ -111,8 +111,8 @@ std::string inWords(const BoneFigure& figure) {
 FittedFigures fittedFigures(const FitEvidence& evidence) {
   std::vector<int> landmarks;
   for (const auto& name : figureLandmarkNames()) landmarks.push_back(evidence.reference.landmarkIndex(name));
-  const PosedPoints points = posePoints(evidence.reference, evidence.body, landmarks, evidence.z,
-                                        everything(evidence.body.count()));
+  const PosedPoints points =
+      posePoints(evidence.reference, evidence.body, landmarks, evidence.z, everything(evidence.body.count()));
   constexpr int kInputs = 3 * (2 * figures::kLegPoints + 1);
   using Jet = ceres::Jet<double, kInputs>;
   std::vector<Vector3<Jet>> p_W;
@@ -138,7 +138,8 @@ void judgeFigures(const FitEvidence& evidence, SkeletonFit& fit) {
   fit.outside = outsideBones(evidence.reference, report.misfits);
   warnOfOutsideBones(fit.outside, fit.warnings);
   const FittedFigures fitted = fittedFigures(evidence);
-  const TriangulatedFigures picked = triangulatedFigures(evidence.reference, report.points, evidence.nuisance_covariance);
+  const TriangulatedFigures picked =
+      triangulatedFigures(evidence.reference, report.points, evidence.nuisance_covariance);
   Eigen::VectorXd prior_variance(evidence.z.size());
   for (int i = 0; i < evidence.body.count(); ++i) prior_variance[i] = std::pow(evidence.body.priorWeight(i), -2);
 
@@ -150,8 +151,8 @@ void judgeFigures(const FitEvidence& evidence, SkeletonFit& fit) {
     const double variance = g.dot(evidence.covariance * g);
     const Estimate of_model{fitted.value[f], std::sqrt(variance)};
     const Estimate of_picks{picked.value[f], report.scale * picked.sd[f]};
-    const bool outside = std::ranges::any_of(
-        fit.outside, [&](const OutsideBone& bone) { return dependsOn(figure, bone.segment); });
+    const bool outside =
+        std::ranges::any_of(fit.outside, [&](const OutsideBone& bone) { return dependsOn(figure, bone.segment); });
     constexpr double kDisagree_sd = 3, kLeastShare = 0.2;
     const double sd_of_difference =
         std::sqrt(std::max(std::pow(of_picks.sd, 2) - variance, std::pow(kLeastShare * of_picks.sd, 2)));
@@ -165,9 +166,8 @@ void judgeFigures(const FitEvidence& evidence, SkeletonFit& fit) {
     const bool seen = figure.triangulated || (of_model.sd < kMostOfPrior * prior_sd && !outside);
     figure.determined = seen && 0.5 * (figure.upper95 - figure.lower95) <= limitOf(figure.quantity);
     if (!figure.determined && !evidence.offered.empty())
-      fit.advice.push_back(adviceFor(
-          evidence, fitted, f,
-          std::min(limitOf(figure.quantity) / kTwoSided95, kMostOfPrior * prior_sd)));
+      fit.advice.push_back(
+          adviceFor(evidence, fitted, f, std::min(limitOf(figure.quantity) / kTwoSided95, kMostOfPrior * prior_sd)));
   }
   if (!taken_from_picks.empty())
     fit.warnings.push_back({"figures_triangulated",

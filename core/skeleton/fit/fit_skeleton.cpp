@@ -365,8 +365,8 @@ class SkeletonFitter {
     return seen;
   }
 
-  /// Deformities are rare and large: their priors are Gaussian for most bodies and no more than linear beyond, so that
-  /// a bone bent by many standard deviations is not pulled back by as many.
+  /// Deformities are rare and large: their priors are Gaussian for most bodies and no more than linear beyond, so
+  /// that a bone bent by many standard deviations is not pulled back by as many.
   static constexpr double kUsualDeformity_sd = 1.5;
   void addDeformityPriors(ceres::Problem& problem, const Unknowns& unknowns, SharedBody& shared) const {
     for (std::size_t k = 0; k < unknowns.active.size(); ++k)

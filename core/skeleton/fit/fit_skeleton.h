@@ -81,8 +81,8 @@ struct SkeletonFit {
   std::vector<LandmarkResidual> residuals;
   double rms_px = std::numeric_limits<double>::quiet_NaN();
   std::vector<BoneFigure> figures;
-  std::vector<OutsideBone> outside;         ///< bones outside the model's family of shapes, the worst first
-  std::vector<FigureAdvice> advice;         ///< for the figures that are not determined, if landmarks were offered
+  std::vector<OutsideBone> outside;  ///< bones outside the model's family of shapes, the worst first
+  std::vector<FigureAdvice> advice;  ///< for the figures that are not determined, if landmarks were offered
   PickScale pick_scale;
   std::vector<ExposureMovement> movements;  ///< one for every further exposure
   std::vector<std::string> undetermined;    ///< shape parameters and coordinates that stayed at the prior

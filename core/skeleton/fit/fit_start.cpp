@@ -97,7 +97,8 @@ std::optional<Similarity> alignPoints(std::span<const Eigen::Vector3d> body, std
   return best;
 }
 
-std::optional<Similarity> similarityOf(std::span<const Eigen::Vector3d> body, std::span<const Eigen::Vector3d> world) {
+std::optional<Similarity> similarityOf(std::span<const Eigen::Vector3d> body,
+                                       std::span<const Eigen::Vector3d> world) {
   if (body.size() < 3) return std::nullopt;
   return alignWeighted(body, world, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(body.size())));
 }

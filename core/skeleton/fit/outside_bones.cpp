@@ -30,7 +30,7 @@ std::string boneInWords(const std::string& segment) {
 }
 
 std::vector<OutsideBone> outsideBones(const Skeleton& reference, std::span<const LandmarkMisfit> misfits) {
-  constexpr double kDeviate = 4;       // one-sided: 3e-5
+  constexpr double kDeviate = 4;  // one-sided: 3e-5
   constexpr double kFewestDegrees = 2;
   struct Sum {
     double chi2 = 0, degrees = 0, farthest_m = 0;
@@ -57,12 +57,12 @@ std::vector<OutsideBone> outsideBones(const Skeleton& reference, std::span<const
 
 void warnOfOutsideBones(std::span<const OutsideBone> bones, Warnings& warnings) {
   for (const OutsideBone& bone : bones)
-    warnings.push_back(
-        {"outside_model", boneInWords(bone.segment) + " is outside the model: its picks lie up to " +
-                              rounded(bone.distance_mm) + " mm (" + bone.landmark + ") from the fitted bone, " +
-                              rounded(bone.misfit) +
-                              " times what picking errors explain. None was left out for it; where its figures differ, "
-                              "those of the picks themselves are taken and marked. Check the picks, then the bone"});
+    warnings.push_back({"outside_model",
+                        boneInWords(bone.segment) + " is outside the model: its picks lie up to " +
+                            rounded(bone.distance_mm) + " mm (" + bone.landmark + ") from the fitted bone, " +
+                            rounded(bone.misfit) +
+                            " times what picking errors explain. None was left out for it; where its figures differ, "
+                            "those of the picks themselves are taken and marked. Check the picks, then the bone"});
 }
 
 std::vector<std::size_t> slipsAmong(const Skeleton& reference, const SightingList& list,

@@ -47,8 +47,8 @@ class FiguresOfPicks {
     for (const auto& around : surroundedPoints())
       for (const std::string side : {"_r", "_l"}) {
         Cluster cluster;
-        cluster.target = int(std::ranges::find(figureLandmarkNames(), around.point + side) -
-                             figureLandmarkNames().begin());
+        cluster.target =
+            int(std::ranges::find(figureLandmarkNames(), around.point + side) - figureLandmarkNames().begin());
         if (pick_[std::size_t(cluster.target)] >= 0) continue;  // somebody did pick it
         const Landmark& target = reference.landmark(around.point + side);
         cluster.p_B = target.p_BL;
@@ -138,8 +138,7 @@ TriangulatedFigures triangulatedFigures(const Skeleton& reference, std::span<con
       more[i][axis] += kStep_m, less[i][axis] -= kStep_m;
       const auto high = figures.at(more), low = figures.at(less);
       for (Eigen::Index f = 0; f < count; ++f)
-        by_points(f, 3 * Eigen::Index(i) + axis) =
-            (high[std::size_t(f)] - low[std::size_t(f)]) / (2 * kStep_m);
+        by_points(f, 3 * Eigen::Index(i) + axis) = (high[std::size_t(f)] - low[std::size_t(f)]) / (2 * kStep_m);
     }
   for (Eigen::Index f = 0; f < count; ++f) {
     double variance = 0;

@@ -10,9 +10,9 @@
 
 namespace sinew {
 
-// The clinical figures as plain triangulation gives them: every landmark where its own picks say, whatever the shape of
-// its bone. They know nothing of the model, so they have no bias where a bone is outside its family; they are wider
-// than the fitted ones, because nothing is smoothed.
+// The clinical figures as plain triangulation gives them: every landmark where its own picks say, whatever the shape
+// of its bone. They know nothing of the model, so they have no bias where a bone is outside its family; they are
+// wider than the fitted ones, because nothing is smoothed.
 
 /// Image of a point, with derivatives by the point and by what disturbs the views (movement, errors of the geometry).
 struct SeenImage {
@@ -37,7 +37,7 @@ struct PickedPoint {
   int landmark = 0;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_W_m2 = Eigen::Matrix3d::Zero();
-  double disagreement = 0;  ///< root of (sum of squares of the residuals in sigmas / their degrees of freedom)
+  double disagreement = 0;       ///< root of (sum of squares of the residuals in sigmas / their degrees of freedom)
   Eigen::Matrix3Xd by_nuisance;  ///< derivative of p_W by what disturbs the views
 };
 /// nullopt if the picks leave a direction open (one view, rays within some degrees of parallel): SD above 0.1 m.
@@ -45,8 +45,9 @@ struct PickedPoint {
 std::optional<PickedPoint> pickedPoint(const LandmarkPicks& picks, const ImageOfPoint& image,
                                        const Eigen::Vector3d& start_W);
 
-/// Values and SDs in the order of figureList(); NaN where the picks do not give a figure. Knee and ankle centre, which
-/// nobody picks, come from the landmarks around them: the similarity that takes these of the reference to the picks.
+/// Values and SDs in the order of figureList(); NaN where the picks do not give a figure. Knee and ankle centre,
+/// which nobody picks, come from the landmarks around them: the similarity that takes these of the reference to the
+/// picks.
 struct TriangulatedFigures {
   std::vector<double> value, sd;
 };

@@ -40,23 +40,22 @@ void requireLongerThanHeads(const std::string& bone, const LimbBoneShape& limb) 
                       std::to_string(limb.elongation)}};
 }
 
-/// The bends of femur and tibia bring points at their sides together. Torsion only shears, and the other fields cannot
-/// fold.
+/// The bends of femur and tibia bring points at their sides together. Torsion only shears, and the other fields
+/// cannot fold.
 struct BentBone {
   const char* name;
   field::Kind kind;
-  int bends, end;  ///< of its bends among the parameters of a side
+  int bends, end;                                                    ///< of its bends among the parameters of a side
   double top_u_m, bottom_u_m, front_m, back_m, outside_m, inside_m;  ///< extent of the bone, reference
 };
-constexpr BentBone kBentBones[] = {
-    {"femur", field::Kind::Femur, field::kFemur + field::kVarus, field::kTibia, -0.02, 0.45, 0.03,
-     -0.03, 0.06, -0.045},
-    {"tibia", field::Kind::Tibia, field::kTibia + field::kVarus, field::kHumerus, 0.02, 0.44, 0.03,
-     -0.03, 0.042, -0.038}};
+constexpr BentBone kBentBones[] = {{"femur", field::Kind::Femur, field::kFemur + field::kVarus, field::kTibia, -0.02,
+                                    0.45, 0.03, -0.03, 0.06, -0.045},
+                                   {"tibia", field::Kind::Tibia, field::kTibia + field::kVarus, field::kHumerus, 0.02,
+                                    0.44, 0.03, -0.03, 0.042, -0.038}};
 
 /// The bend without which there would be most volume at p: the one to blame.
-int worstBend(const Skeleton& reference, const std::vector<double>& all, const field::Place& place, int first, int last,
-              const Eigen::Vector3d& p) {
+int worstBend(const Skeleton& reference, const std::vector<double>& all, const field::Place& place, int first,
+              int last, const Eigen::Vector3d& p) {
   int worst = first;
   double most = -std::numeric_limits<double>::infinity();
   for (int k = first; k < last; ++k) {
@@ -90,8 +89,9 @@ void requireUnfolded(const Skeleton& reference, const std::vector<double>& all, 
         const std::size_t k = std::size_t(worstBend(reference, all, place, first, last, p));
         const std::string& name = shapeParameterNames()[k];
         const bool angle = isShapeAngle(name);
-        throw InputError{{"shape", name, "a bend that does not fold the bone, given its elongation",
-                          angle ? std::to_string(all[k] / kRadPerDeg) + " deg" : std::to_string(1e3 * all[k]) + " mm"}};
+        throw InputError{
+            {"shape", name, "a bend that does not fold the bone, given its elongation",
+             angle ? std::to_string(all[k] / kRadPerDeg) + " deg" : std::to_string(1e3 * all[k]) + " mm"}};
       }
 }
 

@@ -56,7 +56,8 @@ U shareOf(const Stretch& s, const U& u) {
   return step<U>((u - U(s.begin)) / U(s.end - s.begin));
 }
 
-/// Turn of the neck-shaft angle at u, about the head's centre: whole in the neck, gone at the end of the proximal head.
+/// Turn of the neck-shaft angle at u, about the head's centre: whole in the neck, gone at the end of the proximal
+/// head.
 template <class T, class U>
 Bend<T> neckShaftBend(const T* femur, const U& u) {
   return {femur[kNeckShaft] * T(U(1) - shareOf(kSubtrochanteric, u)), T(0)};
@@ -71,7 +72,8 @@ Bend<T> bowBend(const T* femur, const U& u) {
 template <class T, class U>
 Bend<T> kneeBend(const T* femur, const U& u) {
   const T above(shareOf(kSupracondylar, u)), half(U(0.5) * shareOf(kFemoralShaft, u));
-  return {femur[kVarus] * above + femur[kBowFrontal] * half, femur[kProcurvatum] * above + femur[kBowSagittal] * half};
+  return {femur[kVarus] * above + femur[kBowFrontal] * half,
+          femur[kProcurvatum] * above + femur[kBowSagittal] * half};
 }
 /// Turns of the tibia at u: of what lies below the metaphysis about the knee, of what lies above the ankle about the
 /// ankle.
@@ -105,7 +107,7 @@ inline const Eigen::Vector3d& neckVector() {
   return p_HN;
 }
 constexpr double kNeckLength_m = 0.05905294234837076;  // its norm
-constexpr double kNeckBlend_m = 0.046;       // along the neck from the head's centre: what lies farther moves whole
+constexpr double kNeckBlend_m = 0.046;  // along the neck from the head's centre: what lies farther moves whole
 
 /// How the base of the neck moves against the head [m, reference] when the neck is longer and bent.
 template <class T>

@@ -10,8 +10,8 @@ namespace sinew::field {
 constexpr int kElongation = 0, kProximalScale = 1, kDistalScale = 2, kTorsion = 3;
 constexpr int kVarus = 4, kProcurvatum = 5;  // femur and tibia
 constexpr int kNeckShaft = 6, kNeckLength = 7, kNeckVarus = 8, kNeckRetroversion = 9, kBowFrontal = 10,
-              kBowSagittal = 11;                           // femur
-constexpr int kDistalVarus = 6, kDistalProcurvatum = 7;    // tibia
+              kBowSagittal = 11;                         // femur
+constexpr int kDistalVarus = 6, kDistalProcurvatum = 7;  // tibia
 constexpr int kFemur = 0, kTibia = 12, kHumerus = 20, kUlna = 24, kFoot = 28, kHand = 29, kHip = 30, kSideCount = 33;
 
 /// C1 step from 0 at x <= 0 to 1 at x >= 1, and its integral from 0.
@@ -26,11 +26,11 @@ U stepIntegral(const U& x) {
 
 /// Reference proportions of a limb bone, along the axial coordinate u = -y from the proximal joint centre [m].
 struct LimbReference {
-  double length;                ///< to the distal joint centre
-  double proximal_end;          ///< the proximal head reaches to here ...
-  double distal_begin;          ///< ... and the distal head begins here
-  double blend;                 ///< half width of the blends between head and shaft
-  int axis_points;  ///< shaft axis as (u, x, z); zero in the distal head, so that torsion turns it rigidly
+  double length;        ///< to the distal joint centre
+  double proximal_end;  ///< the proximal head reaches to here ...
+  double distal_begin;  ///< ... and the distal head begins here
+  double blend;         ///< half width of the blends between head and shaft
+  int axis_points;      ///< shaft axis as (u, x, z); zero in the distal head, so that torsion turns it rigidly
   std::array<Eigen::Vector3d, 6> axis;
 };
 
@@ -69,7 +69,8 @@ inline const LimbReference& limbReference(int bone) {
                                       {0, 0, 0},
                                       {0, 0, 0}}};
   static const LimbReference ulna{
-      0.258, 0.060, 0.208, 0.015, 2, {Eigen::Vector3d{0.0, 0.0, 0.0}, {0.258, 0.0, 0.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+      0.258, 0.060, 0.208,
+      0.015, 2,     {Eigen::Vector3d{0.0, 0.0, 0.0}, {0.258, 0.0, 0.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
   return bone == kFemur ? femur : bone == kTibia ? tibia : bone == kHumerus ? humerus : ulna;
 }
 

@@ -12,8 +12,8 @@ namespace sinew {
 // The population that the fit takes its priors from, and that synthetic patients are drawn from: the same one, so
 // that stated intervals can be checked against truth. Every quantity is mean + SD * deviation, deviations being
 // independent standard normal numbers. One factor "size" multiplies all ratios of a body (parameter = size * (mean +
-// SD * deviation)), so that bones which no image shows follow the size of those that are seen; added lengths grow with
-// it too, angles do not.
+// SD * deviation)), so that bones which no image shows follow the size of those that are seen; added lengths grow
+// with it too, angles do not.
 
 /// The name of that factor among the priors.
 inline constexpr const char* kSizePrior = "size";

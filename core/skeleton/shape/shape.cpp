@@ -99,8 +99,8 @@ ShapeParameters shapeFromVector(const std::vector<double>& values) {
 }
 
 ShapeUnit shapeUnit(const std::string& parameter) {
-  constexpr std::string_view kAngles[] = {"torsion",    "varus",       "procurvatum",  "neck_shaft",
-                                          "neck_varus", "bow_frontal", "bow_sagittal", "neck_retroversion",
+  constexpr std::string_view kAngles[] = {"torsion",    "varus",        "procurvatum",       "neck_shaft",
+                                          "neck_varus", "bow_frontal",  "bow_sagittal",      "neck_retroversion",
                                           "bend",       "distal_varus", "distal_procurvatum"};
   constexpr std::string_view kLengths[] = {"lateral", "superior", "anterior", "neck_length"};
   const std::string_view quantity = std::string_view{parameter}.substr(parameter.find('.') + 1);
@@ -113,8 +113,7 @@ void validate(const ShapeParameters& shape) {
   forEachParameter(shape, [](const std::string& name, double value) {
     const Allowed allowed = allowedOf(shapeUnit(name));
     if (!(value >= allowed.least && value <= allowed.greatest))
-      throw InputError{
-          {"shape", name, allowed.expected, std::to_string(value / allowed.per_shown) + allowed.unit}};
+      throw InputError{{"shape", name, allowed.expected, std::to_string(value / allowed.per_shown) + allowed.unit}};
   });
 }
 

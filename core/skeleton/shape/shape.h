@@ -5,18 +5,18 @@
 
 namespace sinew {
 
-/// Shape of one limb bone relative to the reference. Every added angle and length is 0 in the reference; signs are the
-/// same on both sides.
+/// Shape of one limb bone relative to the reference. Every added angle and length is 0 in the reference; signs are
+/// the same on both sides.
 struct LimbBoneShape {
-  double elongation = 1;      ///< joint-centre to joint-centre length ratio; the shaft takes up the change
-  double proximal_scale = 1;  ///< size of the proximal head, about its joint centre
-  double distal_scale = 1;    ///< size of the distal head, about its joint centre
-  double torsion_rad = 0;     ///< added torsion, distributed over the shaft; positive = distal end turned outwards
-  double neck_shaft_rad = 0;  ///< added neck-shaft angle below the trochanters (femur only); positive = valgus
-  double varus_rad = 0;       ///< frontal bend at the knee: femur just above it, tibia just below; positive = varus
-  double procurvatum_rad = 0;         ///< sagittal bend at the same place (femur, tibia); positive = apex anterior
-  double neck_length_m = 0;           ///< added length of the neck, along its axis (femur only)
-  double neck_varus_rad = 0;          ///< bend in the neck itself (femur only); positive = head lower (coxa vara)
+  double elongation = 1;       ///< joint-centre to joint-centre length ratio; the shaft takes up the change
+  double proximal_scale = 1;   ///< size of the proximal head, about its joint centre
+  double distal_scale = 1;     ///< size of the distal head, about its joint centre
+  double torsion_rad = 0;      ///< added torsion, distributed over the shaft; positive = distal end turned outwards
+  double neck_shaft_rad = 0;   ///< added neck-shaft angle below the trochanters (femur only); positive = valgus
+  double varus_rad = 0;        ///< frontal bend at the knee: femur just above it, tibia just below; positive = varus
+  double procurvatum_rad = 0;  ///< sagittal bend at the same place (femur, tibia); positive = apex anterior
+  double neck_length_m = 0;    ///< added length of the neck, along its axis (femur only)
+  double neck_varus_rad = 0;   ///< bend in the neck itself (femur only); positive = head lower (coxa vara)
   double neck_retroversion_rad = 0;   ///< the same in the transverse plane; positive = head further behind
   double bow_frontal_rad = 0;         ///< bow of the whole shaft (femur only); positive = apex lateral
   double bow_sagittal_rad = 0;        ///< the same in the sagittal plane; positive = apex anterior

@@ -55,8 +55,8 @@ class JudgedFigures : public testing::Test {
   }
   static const FigureAdvice& adviceOf(const SkeletonFit& fit, const std::string& quantity,
                                       const std::string& side = "") {
-    const auto at = std::ranges::find_if(
-        fit.advice, [&](const auto& a) { return a.quantity == quantity && a.side == side; });
+    const auto at =
+        std::ranges::find_if(fit.advice, [&](const auto& a) { return a.quantity == quantity && a.side == side; });
     if (at == fit.advice.end()) throw std::runtime_error{"no advice for " + quantity};
     return *at;
   }
@@ -120,7 +120,8 @@ TEST_F(JudgedFigures, OneSlipIsLeftOutButSeveralLandmarksOfABoneAreNot) {
   const auto slip = std::ranges::find(picks, "medial_epicondyle_l", &LandmarkObservation::landmark);
   slip->uv_px.x() += 150;  // along the epipolar line: the rays still meet, but the other view fits
   const auto leftOut = [](const SkeletonFit& result) {
-    return std::ranges::count_if(result.warnings, [](const Warning& w) { return w.message.ends_with("was left out"); });
+    return std::ranges::count_if(result.warnings,
+                                 [](const Warning& w) { return w.message.ends_with("was left out"); });
   };
   EXPECT_EQ(leftOut(fit(picks)), 1);
   picks = seen(protocol);

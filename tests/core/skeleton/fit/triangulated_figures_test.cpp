@@ -107,16 +107,17 @@ TEST(TriangulatedFigures, HaveTheSpreadThatIndependentPointsGive) {
   // knee is no better than the mean of four points.
   EXPECT_GT(picked.sd[0], std::sqrt(1.25) - 0.01);
   EXPECT_LT(picked.sd[0], 1.5);
-  const std::size_t width = std::size_t(std::ranges::find(truth, "pelvic_width", &BoneFigure::quantity) - truth.begin());
+  const std::size_t width =
+      std::size_t(std::ranges::find(truth, "pelvic_width", &BoneFigure::quantity) - truth.begin());
   EXPECT_NEAR(picked.sd[width], std::sqrt(2.0), 0.01);
 }
 
 TEST(TriangulatedFigures, ThatLackALandmarkAreNotGiven) {
   const auto [truth, picked] = figuresOf({}, {"femoral_head_center_r"});
   for (std::size_t f = 0; f < truth.size(); ++f) {
-    const bool needs_head = (truth[f].side == "r" && truth[f].quantity != "tibia_length" &&
-                             truth[f].quantity != "tibial_torsion") ||
-                            truth[f].side.empty() || truth[f].quantity == "neck_shaft_angle";
+    const bool needs_head =
+        (truth[f].side == "r" && truth[f].quantity != "tibia_length" && truth[f].quantity != "tibial_torsion") ||
+        truth[f].side.empty() || truth[f].quantity == "neck_shaft_angle";
     EXPECT_EQ(std::isnan(picked.value[f]), needs_head) << truth[f].quantity << truth[f].side;
   }
 }

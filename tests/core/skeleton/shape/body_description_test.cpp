@@ -157,11 +157,10 @@ TEST(ShapeJson, OlderFilesWithoutTheBendsOfTheLegsStillLoadAndMeanNone) {
   shape.sides[1].tibia.elongation = 0.9;
   Json json = shapeToJson(shape);
   for (const std::string side : {"r", "l"})
-    for (const char* later :
-         {"femur.procurvatum_rad", "femur.neck_length_m", "femur.neck_varus_rad", "femur.neck_retroversion_rad",
-          "femur.bow_frontal_rad", "femur.bow_sagittal_rad", "tibia.varus_rad", "tibia.procurvatum_rad",
-          "tibia.distal_varus_rad", "tibia.distal_procurvatum_rad", "hip.lateral_m", "hip.superior_m",
-          "hip.anterior_m"}) {
+    for (const char* later : {"femur.procurvatum_rad", "femur.neck_length_m", "femur.neck_varus_rad",
+                              "femur.neck_retroversion_rad", "femur.bow_frontal_rad", "femur.bow_sagittal_rad",
+                              "tibia.varus_rad", "tibia.procurvatum_rad", "tibia.distal_varus_rad",
+                              "tibia.distal_procurvatum_rad", "hip.lateral_m", "hip.superior_m", "hip.anterior_m"}) {
       std::string name = later;
       name.insert(name.find('.'), "_" + side);
       ASSERT_EQ(json.erase(name), 1u) << name;

@@ -125,7 +125,7 @@ TEST(BoneField, TheNeckHasItsOwnLengthAndBend) {
   shape.sides[0].femur.proximal_scale = 0.8;
   shape.sides[0].femur.neck_length_m = -0.012;
   Skeleton s = deformedSkeleton(reference(), shape);
-  EXPECT_NEAR(neck(s).norm(), 0.8 * before.norm() - 0.012, 1e-9);  // the scaled neck, 12 mm shorter
+  EXPECT_NEAR(neck(s).norm(), 0.8 * before.norm() - 0.012, 1e-9);                    // the scaled neck, 12 mm shorter
   EXPECT_LT(neck(s).cross(before).norm() / (neck(s).norm() * before.norm()), 1e-9);  // along its axis
   EXPECT_NEAR(jointDistance(s, "femur_r", "tibia_r"), 0.422, 1e-12);
   shape = {};

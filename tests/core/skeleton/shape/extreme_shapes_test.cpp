@@ -130,10 +130,10 @@ TEST(Undeform, RefusesWhatHasNoOrigin) {
 TEST(Undeform, GoesBackFromDeformedLegs) {
   ShapeParameters all;
   const std::pair<double LimbBoneShape::*, double> femoral[] = {
-      {&LimbBoneShape::varus_rad, 20 * kDeg},         {&LimbBoneShape::procurvatum_rad, -20 * kDeg},
-      {&LimbBoneShape::neck_shaft_rad, -15 * kDeg},   {&LimbBoneShape::neck_length_m, -0.015},
-      {&LimbBoneShape::neck_varus_rad, 15 * kDeg},    {&LimbBoneShape::neck_retroversion_rad, 15 * kDeg},
-      {&LimbBoneShape::bow_frontal_rad, -15 * kDeg},  {&LimbBoneShape::bow_sagittal_rad, 20 * kDeg},
+      {&LimbBoneShape::varus_rad, 20 * kDeg},        {&LimbBoneShape::procurvatum_rad, -20 * kDeg},
+      {&LimbBoneShape::neck_shaft_rad, -15 * kDeg},  {&LimbBoneShape::neck_length_m, -0.015},
+      {&LimbBoneShape::neck_varus_rad, 15 * kDeg},   {&LimbBoneShape::neck_retroversion_rad, 15 * kDeg},
+      {&LimbBoneShape::bow_frontal_rad, -15 * kDeg}, {&LimbBoneShape::bow_sagittal_rad, 20 * kDeg},
       {&LimbBoneShape::torsion_rad, 30 * kDeg}};
   const std::pair<double LimbBoneShape::*, double> tibial[] = {{&LimbBoneShape::varus_rad, 20 * kDeg},
                                                                {&LimbBoneShape::procurvatum_rad, 15 * kDeg},
