@@ -62,8 +62,10 @@ std::vector<LandmarkObservation> observationsOf(std::span<const Sighting> sighti
 
 SkeletonFit fitPatient(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
                        const std::filesystem::path& resource_dir, const Job& job) {
-  return fitSkeleton(reference, fitViewsOf(rig), observationsOf(sightings), loadShapePriors(resource_dir),
-                     optionsFrom(resource_dir), job);
+  FitOptions options = optionsFrom(resource_dir);
+  for (const auto& landmark : loadLandmarkProtocol(resource_dir)) options.offered_landmarks.push_back(landmark.name);
+  return fitSkeleton(reference, fitViewsOf(rig), observationsOf(sightings), loadShapePriors(resource_dir), options,
+                     job);
 }
 
 ExchangeFinding examineSides(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
