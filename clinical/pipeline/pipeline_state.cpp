@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "clinical/case/case_results_json.h"
+#include "clinical/case/patient_body.h"
 #include "clinical/exam/physical_exam_json.h"
 #include "clinical/pipeline/pipeline.h"
 #include "core/file.h"
@@ -19,9 +20,10 @@ int methodRevision(Stage stage) {
     case Stage::Skeleton:
     case Stage::Report:
       return 1;
-    case Stage::Musculature:  // 2: retargeted instead of anchored to the nearest bone
     case Stage::Exam:
-      return 2;
+      return 3;  // 2: on the retargeted musculature; 3: of the patient's own mass, forces and joints
+    case Stage::Musculature:
+      return 3;  // 2: retargeted instead of anchored to the nearest bone; 3: of the patient's own mass
   }
   return 0;
 }
@@ -75,7 +77,9 @@ Json inputsOf(const Case& c, Stage stage) {
     case Stage::Skeleton:
       return {{"rig", orNull(c.rig, rigToJson)}, {"sightings", sightingsToJson(c.sightings)}};
     case Stage::Musculature:
-      return {{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)}};
+      return {{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)},
+              {"mass_kg", numberOrNull(c.patient.mass_kg)},
+              {"age_years", numberOrNull(ageYears(c.patient, c.exam))}};
     case Stage::Exam:
       return {{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)},
               {"exam", examToJson(c.exam)},

@@ -3,8 +3,12 @@
 #include <system_error>
 
 #include "clinical/case/case_io.h"
+#include "clinical/case/patient_body.h"
 #include "clinical/pipeline/stage_runs.h"
 #include "core/file.h"
+#include "core/model/physical_scaling.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {
@@ -96,11 +100,14 @@ StageRun runSkeleton(Case& c, const PipelineContext& context, const Job& job) {
 StageRun runMusculature(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   const auto reference = context.retargeting ? context.retargeting() : loadRetargetReference(context.resource_dir);
-  Retargeted retargeted = retarget(*reference, c.skeleton->shape, {}, job);
+  const Skeleton& standard = context.reference->skeleton;
+  const RetargetOptions options{.physics = patientPhysics(c.patient, c.exam, c.skeleton->shape, standard)};
+  Retargeted retargeted = retarget(*reference, c.skeleton->shape, options, job);
   run.outcome = retargeted.outcome;
   if (run.outcome != Outcome::Converged) return run;
   retargeted.model.name = kModelName;
   run.warnings = validateModel(retargeted.model);
+  addWarnings(run.warnings, patientPhysicsDoubts(c.patient, c.skeleton->shape, standard));
   c.musculature = storeMusculature(retargeted.model, context);
   const bool examined = c.exam_fit && stateOf(c, Stage::Exam) == StageState::Done;
   c.model = storeModel(examined ? withLengthFactors(retargeted.model, c.exam_fit->length_factors) : retargeted.model,
@@ -155,7 +162,8 @@ StageRun runReport(Case& c, const PipelineContext& context) {
 Model modelBeforeExam(const Case& c, const Model& reference, const std::filesystem::path& case_dir) {
   if (c.musculature && stateOf(c, Stage::Musculature) == StageState::Done)
     return loadModel(checkedFile(*c.musculature, case_dir), reference);
-  Model model = deformedModel(reference, c.skeleton->shape);
+  Model model = withPhysics(deformedModel(reference, c.skeleton->shape), reference,
+                            patientPhysics(c.patient, c.exam, c.skeleton->shape, reference.skeleton));
   model.name = kModelName;
   return model;
 }

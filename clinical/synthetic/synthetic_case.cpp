@@ -7,6 +7,7 @@
 #include "clinical/synthetic/synthetic_exam.h"
 #include "clinical/synthetic/synthetic_patient.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/skeleton/shape/bone_field.h"
 
 namespace sinew {
@@ -57,7 +58,7 @@ SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const 
   patient.patient = identityOf(skeleton, options.seed);
   patient.truth.figures = boneFigures(reference_skeleton, patient.shape, patient.posture);
   patient.truth.seed = options.seed;
-  const SyntheticExam exam = drawExam(reference, patient.shape, *patient.patient.mass_kg, options);
+  const SyntheticExam exam = drawExam(reference, patient.shape, patient.patient, options);
   patient.exam = exam.exam;
   patient.truth.length_factors = exam.length_factors;
   patient.patient.diagnosis = exam.diagnosis;

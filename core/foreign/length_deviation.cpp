@@ -87,7 +87,7 @@ LengthDeviation lengthDeviation(const Model& model, const std::function<Eigen::V
   const auto sweeps = rangePostures(model.skeleton, kStep_deg, 0);
   const auto random = normalPostures(model.skeleton, kRandomPostures);
   const auto norm_off_m = differences(model, sweeps, theirs), random_off_m = differences(model, random, theirs);
-  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}, {}};
+  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}, {}, {}};
   for (std::size_t u = 0; u < model.musculature.units.size(); ++u) {
     const MusculotendonUnit& unit = model.musculature.units[u];
     UnitDeviation of{.unit = unit.name};
@@ -120,11 +120,13 @@ LengthDeviation lengthDeviation(const Model& model, const ForeignModel& foreign)
   });
   for (const Joint& joint : model.skeleton.joints)
     if (!joint.edited.steps.empty()) deviation.boxed_ranges.push_back(joint.name);
+  deviation.structures = structureDeviation(model, foreign);
   return deviation;
 }
 
 std::string summaryText(const LengthDeviation& deviation) {
-  return lengthsText(deviation) + boxedRangesText(deviation);
+  return lengthsText(deviation) + (deviation.structures ? "; " + summaryText(*deviation.structures) : "") +
+         boxedRangesText(deviation);
 }
 
 }  // namespace sinew
