@@ -13,11 +13,14 @@ namespace {
 
 constexpr double kLargest_Nm = 1000, kLargestRate_per_rad = 500;
 
-EndStructures endFrom(const JsonReader& json) {
-  json.allowOnly({"end_Nm", "rate_per_rad", "source", "verified"});
+EndStructures endFrom(const JsonReader& json, std::string_view preset) {
+  json.allowOnly({"end_Nm", "end_Nm_of", "rate_per_rad", "source", "verified"});
   EndStructures end;
-  end.end_Nm = json["end_Nm"].positive();
-  if (end.end_Nm > kLargest_Nm) json["end_Nm"].fail("at most 1000 N m");
+  const auto others = json.find("end_Nm_of");
+  const auto own = others ? others->find(preset) : std::nullopt;
+  const JsonReader moment = own ? *own : json["end_Nm"];
+  end.end_Nm = moment.positive();
+  if (end.end_Nm > kLargest_Nm) moment.fail("at most 1000 N m");
   end.rate_per_rad = json["rate_per_rad"].positive();
   if (end.rate_per_rad > kLargestRate_per_rad) json["rate_per_rad"].fail("at most 500 per radian");
   end.source = json["source"].text();
@@ -38,16 +41,16 @@ void requireKnown(const JsonReader& name, const Skeleton& skeleton) {
 }
 
 /// "min" and "max", or "both" ends alike.
-CoordinateStructures coordinateFrom(const JsonReader& json, const Skeleton& skeleton) {
+CoordinateStructures coordinateFrom(const JsonReader& json, const Skeleton& skeleton, std::string_view preset) {
   json.allowOnly({"coordinate", "min", "max", "both"});
   requireKnown(json["coordinate"], skeleton);
   CoordinateStructures c{json["coordinate"].text(), {}, {}};
   if (const auto both = json.find("both")) {
     json.allowOnly({"coordinate", "both"});
-    c.lower = c.upper = endFrom(*both);
+    c.lower = c.upper = endFrom(*both, preset);
   } else {
-    c.lower = endFrom(json["min"]);
-    c.upper = endFrom(json["max"]);
+    c.lower = endFrom(json["min"], preset);
+    c.upper = endFrom(json["max"], preset);
   }
   return c;
 }
@@ -86,7 +89,8 @@ double LaxityByAge::at(double age) const {
   return std::lerp(shift_rad[i - 1], shift_rad[i], (age - age_years[i - 1]) / (age_years[i] - age_years[i - 1]));
 }
 
-PassiveStructures loadPassiveStructures(const std::filesystem::path& resource_dir, const Skeleton& skeleton) {
+PassiveStructures loadPassiveStructures(const std::filesystem::path& resource_dir, const Skeleton& skeleton,
+                                        std::string_view preset) {
   const auto file = resource_dir / "skeleton" / "passive_moments.json";
   const Json document = parseJson(readFile(file), file.filename().string());
   const JsonReader root{document, file.filename().string()};
@@ -94,7 +98,7 @@ PassiveStructures loadPassiveStructures(const std::filesystem::path& resource_di
   root.allowOnly({"format", "version", "note", "coordinates", "laxity"});
   PassiveStructures result;
   for (const auto& json : root["coordinates"].items()) {
-    result.coordinates.push_back(coordinateFrom(json, skeleton));
+    result.coordinates.push_back(coordinateFrom(json, skeleton, preset));
     const std::string& name = result.coordinates.back().coordinate;
     if (std::ranges::count(result.coordinates, name, &CoordinateStructures::coordinate) > 1)
       json["coordinate"].fail("one entry a coordinate", "'" + name + "' twice");

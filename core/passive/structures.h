@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/passive/passive_moment.h"
@@ -44,9 +45,10 @@ struct PassiveStructures {
   Laxity laxity;
 };
 
-/// Reads skeleton/passive_moments.json. @throws InputError: file, entry, expected, found; also for a coordinate of
-/// `skeleton` without structures.
-PassiveStructures loadPassiveStructures(const std::filesystem::path& resource_dir, const Skeleton& skeleton);
+/// Reads skeleton/passive_moments.json for a flexibility ("average-adult", core/model/rom_preset.h). @throws
+/// InputError: file, entry, expected, found; also for a coordinate of `skeleton` without structures.
+PassiveStructures loadPassiveStructures(const std::filesystem::path& resource_dir, const Skeleton& skeleton,
+                                        std::string_view preset);
 
 /// The moments of the reference's body at the stops of `skeleton`.
 PassiveMoments passiveMomentsAtStops(const PassiveStructures& structures, const Skeleton& skeleton);

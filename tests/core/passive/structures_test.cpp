@@ -231,7 +231,7 @@ TEST(PassiveStructures, ABadFileIsNamed) {
     text.replace(text.find(from), from.size(), to);
     writeFileAtomically(folder.path() / "skeleton/passive_moments.json", text);
     try {
-      loadPassiveStructures(folder.path(), reference().skeleton);
+      loadPassiveStructures(folder.path(), reference().skeleton, "average-adult");
       ADD_FAILURE() << "read " << to;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(words));
