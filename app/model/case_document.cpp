@@ -4,7 +4,8 @@
 
 namespace sinew {
 
-CaseDocument::CaseDocument(QObject* parent) : QObject{parent} {}
+CaseDocument::CaseDocument(std::filesystem::path resource_dir, QObject* parent)
+    : QObject{parent}, resource_dir_{std::move(resource_dir)} {}
 
 void CaseDocument::open(const std::filesystem::path& folder) {
   adopt(loadCase(folder), folder);
@@ -82,14 +83,13 @@ void CaseDocument::redo() {
   announce();
 }
 
-StageState CaseDocument::stateOf(Stage stage) const {
-  auto& state = states_[static_cast<std::size_t>(stage)];
-  if (!state) state = sinew::stateOf(history_.current(), stage);
-  return *state;
+const StageStatus& CaseDocument::statusOf(Stage stage) const {
+  if (status_.empty()) status_ = sinew::statusOf(history_.current(), resource_dir_);
+  return status_.at(static_cast<std::size_t>(stage));
 }
 
 void CaseDocument::announce() {
-  states_.fill(std::nullopt);
+  status_.clear();
   modified_ = isOpen() && !(history_.current() == stored_);
   emit changed();
 }

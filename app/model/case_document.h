@@ -1,10 +1,10 @@
 #pragma once
 #include <QObject>
 #include <QString>
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "clinical/case/case.h"
 #include "clinical/pipeline/pipeline.h"
@@ -17,7 +17,8 @@ namespace sinew {
 class CaseDocument : public QObject {
   Q_OBJECT
  public:
-  explicit CaseDocument(QObject* parent = nullptr);
+  /// `resource_dir`: what the stages read of it decides whether they are done.
+  explicit CaseDocument(std::filesystem::path resource_dir, QObject* parent = nullptr);
 
   bool isOpen() const { return !folder_.empty(); }
   const std::filesystem::path& folder() const { return folder_; }
@@ -48,8 +49,10 @@ class CaseDocument : public QObject {
   void undo();
   void redo();
 
-  /// State of a stage; kept until the next change, because it hashes the stage's inputs.
-  StageState stateOf(Stage stage) const;
+  /// How the stages stand; kept until the next change, because it hashes their inputs.
+  const StageStatus& statusOf(Stage stage) const;
+  StageState stateOf(Stage stage) const { return statusOf(stage).state; }
+  const std::filesystem::path& resourceDir() const { return resource_dir_; }
 
  signals:
   void replaced();   ///< another case, or none
@@ -66,7 +69,8 @@ class CaseDocument : public QObject {
   Case stored_;
   std::filesystem::path folder_;
   bool modified_ = false;
-  mutable std::array<std::optional<StageState>, kStages.size()> states_;
+  std::filesystem::path resource_dir_;
+  mutable std::vector<StageStatus> status_;  ///< empty: to be asked again
 };
 
 }  // namespace sinew

@@ -1,90 +1,16 @@
 #include "app/model/stage_text.h"
 
 #include <QCoreApplication>
-#include <algorithm>
 #include <cmath>
-#include <set>
+
+#include "clinical/pipeline/stage_table.h"
+#include "clinical/pipeline/stage_words.h"
 
 namespace sinew {
 namespace {
 
 QString tr(const char* text) {
   return QCoreApplication::translate("stage", text);
-}
-
-QString plural(std::size_t n, const char* one, const char* many) {
-  return QString::number(n) + ' ' + (n == 1 ? tr(one) : tr(many));
-}
-
-QString landmarkLine(const Case& c) {
-  if (c.sightings.empty()) return tr("No landmark placed");
-  std::set<std::string> names;
-  for (const auto& s : c.sightings) names.insert(s.name);
-  return plural(names.size(), "landmark", "landmarks") + ' ' + tr("placed");
-}
-
-QString examLine(const Case& c) {
-  std::size_t measured = 0;
-  for (const auto& e : c.exam.entries) measured += e.measured_deg ? 1 : 0;
-  return measured ? plural(measured, "angle measured", "angles measured") : tr("Nothing measured");
-}
-
-QString calibrationLine(const BiplanarRig& rig) {
-  const QString method = methodTitle(rig.calibration.method);
-  return std::isfinite(rig.calibration.rms_px) ? tr("%1, %2 px").arg(method, figure(rig.calibration.rms_px, 2))
-                                               : method;
-}
-
-QString landmarkResultLine(const Triangulation& landmarks) {
-  const QString points = plural(landmarks.points.size(), "point", "points");
-  return std::isfinite(landmarks.rms_px) ? tr("%1, RMS %2 px").arg(points, figure(landmarks.rms_px, 2)) : points;
-}
-
-QString examResultLine(const ExamFit& fit) {
-  const auto measured = std::ranges::count_if(fit.tests, [](const auto& t) { return t.measured_deg.has_value(); });
-  return plural(std::size_t(measured), "angle", "angles") + ", " +
-         plural(fit.length_factors.size(), "muscle", "muscles");
-}
-
-/// In few words, since the rail is narrow; empty if there is no result.
-QString resultLine(const Case& c, Stage stage) {
-  switch (stage) {
-    case Stage::Images:
-      return plural(c.images.size(), "radiograph", "radiographs") + ' ' + tr("checked");
-    case Stage::Calibration:
-      return c.rig ? calibrationLine(*c.rig) : QString{};
-    case Stage::Landmarks:
-      return c.landmarks ? landmarkResultLine(*c.landmarks) : QString{};
-    case Stage::Skeleton:
-      return c.skeleton ? tr("Fitted, RMS %1 px").arg(figure(c.skeleton->rms_px, 2)) : QString{};
-    case Stage::Musculature:
-      return c.model ? tr("Model built") : QString{};
-    case Stage::Exam:
-      return c.exam_fit ? examResultLine(*c.exam_fit) : QString{};
-    case Stage::Report:
-      return c.report ? tr("Report written") : QString{};
-  }
-  return {};
-}
-
-QString enteredLine(const Case& c, Stage stage) {
-  switch (stage) {
-    case Stage::Images:
-      return c.images.empty() ? tr("No image") : plural(c.images.size(), "image", "images");
-    case Stage::Calibration:
-      return c.imported_rig ? tr("Imported geometry") : c.phantom ? tr("Bead phantom") : tr("From the image tags");
-    case Stage::Landmarks:
-      return landmarkLine(c);
-    case Stage::Exam:
-      return examLine(c);
-    case Stage::Skeleton:
-      return tr("Not fitted");
-    case Stage::Musculature:
-      return tr("Not built");
-    case Stage::Report:
-      return tr("Not made");
-  }
-  return {};
 }
 
 }  // namespace
@@ -110,23 +36,15 @@ QString stateTitle(StageState state) {
 QString stageLine(const Case& c, Stage stage) {
   const auto record = c.stages.find(stage);
   const bool done = record != c.stages.end() && record->second.outcome == Outcome::Converged;
-  const QString result = done ? resultLine(c, stage) : QString{};
-  return result.isEmpty() ? enteredLine(c, stage) : result;
+  const StageRow& row = rowOf(stage);
+  const std::string result = done ? row.result_line(c) : "";
+  return QString::fromStdString(result.empty() ? row.entered(c) : result);
 }
 
 QString stateExplanation(StageState state, Stage stage) {
   switch (state) {
     case StageState::Missing:
-      switch (stage) {
-        case Stage::Images:
-          return tr("Add a frontal and a lateral radiograph.");
-        case Stage::Landmarks:
-          return tr("Place landmarks in both radiographs.");
-        case Stage::Exam:
-          return tr("Enter at least one measured angle.");
-        default:
-          return tr("Nothing has been entered for this stage.");
-      }
+      return QString::fromUtf8(rowOf(stage).to_enter);
     case StageState::Blocked:
       return tr("An earlier stage must be done first.");
     case StageState::Stale:
@@ -166,13 +84,7 @@ QString spacingText(const Radiograph& radiograph) {
 }
 
 QString methodTitle(const std::string& method) {
-  if (method == "bead_phantom") return tr("Bead phantom");
-  if (method == "dicom_slot_scan") return tr("Slot scanner tags");
-  if (method == "dicom_nominal") return tr("Nominal image tags");
-  if (method == "autoscoper") return tr("Autoscoper file");
-  if (method == "mayacam") return tr("MayaCam file");
-  if (method == "json") return tr("Geometry file");
-  return QString::fromStdString(method);
+  return QString::fromStdString(calibrationMethodTitle(method));
 }
 
 QString readableName(const std::string& name) {

@@ -19,7 +19,10 @@ std::string modelKey(const Case& c) {
 }  // namespace
 
 Workspace::Workspace(std::filesystem::path resource_dir, ReportWriter write_report, QObject* parent)
-    : QObject{parent}, resource_dir_{std::move(resource_dir)}, write_report_{std::move(write_report)} {
+    : QObject{parent},
+      resource_dir_{std::move(resource_dir)},
+      write_report_{std::move(write_report)},
+      document_{resource_dir_} {
   connect(&document_, &CaseDocument::rejected, this, &Workspace::problem);
   connect(&document_, &CaseDocument::replaced, this, [this] {
     jobs_.cancel();
@@ -61,21 +64,21 @@ std::shared_ptr<const Model> Workspace::patientModel() {
     patient_model_.reset();
     patient_model_key_.clear();
     if (!key.empty())
-      if (auto model = sinew::patientModel(c, *reference(), document_.folder()))
+      if (auto model = sinew::patientModel(c, *reference(), document_.folder(), resource_dir_))
         patient_model_ = std::make_shared<const Model>(std::move(*model));
     patient_model_key_ = key;
   }
   return patient_model_;
 }
 
-void Workspace::run(std::vector<Stage> stages) {
+void Workspace::run(const RunRequest& request) {
   StageServices services{resource_dir_, [this] { return reference(); }, [this] { return retargeting(); }, {}};
   if (write_report_)
     services.write_report = [this](const Case& c, const std::filesystem::path& case_dir,
                                    const std::filesystem::path& pdf) {
       write_report_(c, case_dir, pdf, *reference(), resource_dir_);
     };
-  if (!runStages(document_, jobs_, services, std::move(stages)))
+  if (!runStages(document_, jobs_, services, request))
     emit problem(tr("Another computation is still going on: wait for it or cancel it."));
 }
 

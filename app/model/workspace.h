@@ -45,9 +45,10 @@ class Workspace : public QObject {
   /// is made from change. GUI thread. @throws InputError.
   std::shared_ptr<const Model> patientModel();
 
-  /// Runs one stage, or all that wait.
-  void run(std::vector<Stage> stages);
-  void runAll() { run(stagesToRun(document_)); }
+  /// Runs the stages that wait, or one again with those before it that wait.
+  void run(const RunRequest& request);
+  void runStage(Stage stage) { run({stage, stage}); }
+  void runAll() { run({}); }
 
   void openCase(const std::filesystem::path& folder);  ///< answers an unusable folder by problem()
   void saveCase();

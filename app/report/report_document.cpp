@@ -75,7 +75,7 @@ ReportDocument gatherReport(const Case& c, const std::filesystem::path& case_dir
                             const std::filesystem::path& resource_dir) {
   ReportDocument document;
   document.report = makeReport(c, case_dir, reference, resource_dir);
-  Model model = modelBeforeExam(c, reference, case_dir);
+  Model model = modelBeforeExam(c, reference, case_dir, resource_dir);
   const auto X_WB = segmentPoses(model.skeleton, c.skeleton->posture);
   const auto bones = supportedBones(model, c.sightings);
   for (int view = 0; view < 2; ++view)

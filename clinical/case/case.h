@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clinical/case/stage.h"
 #include "clinical/exam/physical_exam.h"
 #include "core/job.h"
 #include "core/skeleton/fit/fit_skeleton.h"
@@ -14,15 +15,6 @@
 #include "imaging/rig/triangulate.h"
 
 namespace sinew {
-
-/// The stages of a case, in their order.
-enum class Stage { Images, Calibration, Landmarks, Skeleton, Musculature, Exam, Report };
-inline constexpr std::array kStages = {Stage::Images,      Stage::Calibration, Stage::Landmarks, Stage::Skeleton,
-                                       Stage::Musculature, Stage::Exam,        Stage::Report};
-std::string nameOf(Stage stage);   ///< "images", ...: files and command line
-std::string titleOf(Stage stage);  ///< "Images", ...: screen
-/// @throws InputError with the nearest names.
-Stage stageFromName(std::string_view name);
 
 /// A file of the case folder, pinned by its content.
 struct FileReference {

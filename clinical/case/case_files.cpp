@@ -8,6 +8,15 @@ namespace {
 
 constexpr std::string_view kExpectation = "a path inside the case folder";
 
+/// A symbolic link must not lead out of the folder.
+void refuseLinkOutOf(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code error;
+  const auto base = std::filesystem::weakly_canonical(folder, error);
+  const auto target = std::filesystem::weakly_canonical(file, error);
+  if (std::mismatch(base.begin(), base.end(), target.begin(), target.end()).first != base.end())
+    throw InputError{{file.string(), "", std::string{kExpectation}, "a link that leads out of it"}};
+}
+
 }  // namespace
 
 bool staysInFolder(const std::string& relative_path) {
@@ -30,16 +39,31 @@ std::filesystem::path checkedFile(const FileReference& reference, const std::fil
   if (!staysInFolder(reference.path))
     throw InputError{{file.string(), "", std::string{kExpectation}, "another path"}};
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError{{file.string(), "", "a file of the case", "nothing"}};
-  // A symbolic link must not lead out of the folder either.
-  const auto base = std::filesystem::weakly_canonical(folder, error);
-  const auto target = std::filesystem::weakly_canonical(file, error);
-  if (std::mismatch(base.begin(), base.end(), target.begin(), target.end()).first != base.end())
-    throw InputError{{file.string(), "", std::string{kExpectation}, "a link that leads out of it"}};
+  if (!std::filesystem::exists(file, error))
+    throw InputError{{file.string(), "", "a file of the case", error ? error.message() : "nothing"}};
+  refuseLinkOutOf(folder, file);
   const std::string found = sha256OfFile(file);
   if (found != reference.sha256)
     throw InputError{{file.string(), "content", "SHA-256 " + reference.sha256.substr(0, 12) + "... as in case.json",
                       found.substr(0, 12) + "...: the file was changed or damaged"}};
+  return file;
+}
+
+bool isUndamaged(const FileReference& reference, const std::filesystem::path& folder) {
+  try {
+    checkedFile(reference, folder);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::filesystem::path resultFile(const std::string& relative_path, const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError{{folder.string(), "", "the case folder", error ? error.message() : "nothing"}};
+  const auto file = folder / relative_path;
+  refuseLinkOutOf(folder, file);
   return file;
 }
 

@@ -27,5 +27,10 @@ FileReference importFile(const std::filesystem::path& source, const std::filesys
 
 /// @throws InputError if the file is missing or its content is not what the reference says.
 std::filesystem::path checkedFile(const FileReference& reference, const std::filesystem::path& folder);
+bool isUndamaged(const FileReference& reference, const std::filesystem::path& folder);
+
+/// Where a result of the case is to be written. @throws InputError if the case folder is gone or a symbolic link
+/// leads out of it.
+std::filesystem::path resultFile(const std::string& relative_path, const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -13,8 +13,8 @@
 namespace sinew {
 namespace {
 
-void refuseUnfinished(const Case& c) {
-  const auto reasons = reasonsAgainstReport(c);
+void refuseUnfinished(const Case& c, const std::filesystem::path& resource_dir) {
+  const auto reasons = reasonsAgainstReport(c, resource_dir);
   if (reasons.empty()) return;
   std::string all;
   for (const auto& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
@@ -101,7 +101,7 @@ std::vector<std::string> warningsOf(const Case& c) {
       if (seen.insert(w.message).second) texts.push_back(stage + ": " + w.message);
   };
   for (const Stage stage : kStages)
-    if (const auto it = c.stages.find(stage); it != c.stages.end() && stage != Stage::Report)
+    if (const auto it = c.stages.find(stage); it != c.stages.end() && stage < Stage::Report)
       add(titleOf(stage), it->second.warnings);
   add(titleOf(Stage::Calibration), c.rig->calibration.warnings);
   add(titleOf(Stage::Landmarks), c.landmarks->warnings);
@@ -114,7 +114,7 @@ std::vector<std::string> warningsOf(const Case& c) {
 
 Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Model& reference,
                   const std::filesystem::path& resource_dir) {
-  refuseUnfinished(c);
+  refuseUnfinished(c, resource_dir);
   const NormTable norms = loadNorms(resource_dir);
   const ExamProtocol protocol = loadExamProtocol(resource_dir);
   const std::string imaging_date = imagingDate(c, case_dir);
@@ -129,9 +129,10 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
   report.exam = examTable(*c.exam_fit, c.exam, protocol);
   report.muscles = muscleTable(*c.exam_fit, protocol);
   report.annexes = {definitionTable(*c.skeleton, norms), protocolTable(*c.exam_fit, protocol),
-                    lengthFactorTable(*c.exam_fit), landmarkTable(c), provenanceTable(c, case_dir)};
+                    lengthFactorTable(*c.exam_fit),      landmarkTable(c),
+                    provenanceTable(c, case_dir),        resourceTable(resource_dir)};
   if (c.truth) report.annexes.push_back(truthTable(c));
-  report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir), protocol);
+  report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir, resource_dir), protocol);
   report.footer = footerOf(c);
   report.warnings = warningsOf(c);
   report.disclaimer = kDisclaimer;

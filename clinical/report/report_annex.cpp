@@ -3,6 +3,7 @@
 #include <map>
 
 #include "clinical/case/case_io.h"
+#include "clinical/pipeline/pipeline.h"
 #include "clinical/report/report_tables.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "imaging/radiograph/radiograph.h"
@@ -89,6 +90,21 @@ ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir
                           c.images[i].file.sha256.substr(0, 16)});
   }
   table.footnote = "The files lie in the case folder, unchanged since they were imported.";
+  return table;
+}
+
+ReportTable resourceTable(const std::filesystem::path& resource_dir) {
+  ReportTable table;
+  table.title = "Provenance of the reference data";
+  table.columns = {"File", "Read by", "SHA-256 (first 16)"};
+  for (const auto& use : resourcesRead(resource_dir)) {
+    std::string readers;
+    for (const Stage stage : use.read_by) readers += (readers.empty() ? "" : ", ") + nameOf(stage);
+    table.rows.push_back({use.path, readers, use.sha256.substr(0, 16)});
+  }
+  table.footnote =
+      "Priors, norms, protocols and the reference body that the stages read, as they are today. A stage "
+      "that read others is out of date.";
   return table;
 }
 

@@ -43,6 +43,7 @@ ReportTable landmarkTable(const Case& c);
 ReportTable lengthFactorTable(const ExamFit& fit);
 ReportTable truthTable(const Case& c);
 ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir);
+ReportTable resourceTable(const std::filesystem::path& resource_dir);
 
 std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ExamProtocol& protocol);
 

@@ -71,7 +71,7 @@ void markDone(Case& c, Stage stage, const Warnings& warnings) {
   record.outcome = Outcome::Converged;
   record.warnings = warnings;
   c.stages[stage] = record;
-  c.stages[stage].input_hash = inputHash(c, stage);
+  c.stages[stage].input_hash = inputHash(c, stage, resourceDir());
 }
 
 Case finishedCase(const Model& reference, const std::filesystem::path& folder) {

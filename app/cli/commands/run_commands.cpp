@@ -33,7 +33,7 @@ void addRun(Commands& commands) {
     commands.chosen = [&session = commands.session, o] {
       const RunRequest request{stageOption(o->from), stageOption(o->to)};
       Case c = loadCase(o->folder);
-      const RunReport report = runCase(c, o->folder, request, session);
+      const RunReport report = runAndStore(c, o->folder, request, session);
       return finishRun(c, o->folder, report, "sinew.run", session);
     };
   });
@@ -52,14 +52,14 @@ void addReport(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       Case c = loadCase(o->folder);
-      const auto reasons = reasonsAgainstReport(c);
+      const auto reasons = reasonsAgainstReport(c, session.resourceDir());
       if (!reasons.empty()) {
         std::string all;
         for (const auto& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
         throw InputError{{o->folder.string(), "report", "every stage done", all}};
       }
       RunRequest request{Stage::Report, Stage::Report};
-      const RunReport report = runCase(c, o->folder, request, session);
+      const RunReport report = runAndStore(c, o->folder, request, session);
       if (report.status == ExitStatus::Done && !o->output.empty())
         writeFileAtomically(o->output, readFile(checkedFile(*c.report, o->folder)));
       return finishRun(c, o->folder, report, "sinew.report", session);
@@ -113,7 +113,7 @@ void addDemo(Commands& commands) {
             "cancelled\n");
         return ExitStatus::NotConverged;
       }
-      const RunReport report = runCase(c, o->folder, {}, session);
+      const RunReport report = runAndStore(c, o->folder, {}, session);
       return finishRun(c, o->folder, report, "sinew.demo", session);
     };
   });

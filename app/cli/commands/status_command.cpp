@@ -33,11 +33,10 @@ const StageRecord* recordOf(const Case& c, Stage stage) {
   return it == c.stages.end() ? nullptr : &it->second;
 }
 
-Json stageJson(const Case& c, Stage stage) {
-  const StageRecord* record = recordOf(c, stage);
-  return {{"name", nameOf(stage)},
-          {"state", nameOf(stateOf(c, stage))},
-          {"missing", missingInput(c, stage)},
+Json stageJson(const StageStatus& status, const StageRecord* record) {
+  return {{"name", nameOf(status.stage)},
+          {"state", nameOf(status.state)},
+          {"missing", status.missing},
           {"outcome", nameOf(record ? record->outcome : Outcome::NotRun)},
           {"seconds", record ? Json(record->seconds) : Json(nullptr)},
           {"summary", record ? record->summary : ""},
@@ -46,25 +45,33 @@ Json stageJson(const Case& c, Stage stage) {
 
 ExitStatus showStatus(const std::filesystem::path& folder, Session& session) {
   const Case c = loadCase(folder);
-  Json stages = Json::array(), files = Json::array();
+  Json stages = Json::array(), files = Json::array(), resources = Json::array();
   std::string lines;
   std::string notes;
-  for (const Stage stage : kStages) {
-    stages.push_back(stageJson(c, stage));
-    const StageRecord* record = recordOf(c, stage);
-    const std::string missing = missingInput(c, stage);
+  for (const auto& status : statusOf(c, session.resourceDir())) {
+    const StageRecord* record = recordOf(c, status.stage);
+    stages.push_back(stageJson(status, record));
+    const std::string name = nameOf(status.stage);
     char line[64];
-    std::snprintf(line, sizeof line, "%-12s %-9s ", nameOf(stage).c_str(), nameOf(stateOf(c, stage)).c_str());
-    lines += line + (missing.empty() && record ? record->summary : missing) + "\n";
+    std::snprintf(line, sizeof line, "%-12s %-9s ", name.c_str(), nameOf(status.state).c_str());
+    lines += line + (status.missing.empty() && record ? record->summary : status.missing) + "\n";
     if (record)
-      for (const auto& w : record->warnings) notes += "warning: " + nameOf(stage) + ": " + w.message + "\n";
+      for (const auto& w : record->warnings) notes += "warning: " + name + ": " + w.message + "\n";
+  }
+  for (const auto& use : resourcesRead(session.resourceDir())) {
+    Json readers = Json::array();
+    for (const Stage stage : use.read_by) readers.push_back(nameOf(stage));
+    resources.push_back({{"path", use.path}, {"sha256", use.sha256}, {"read_by", readers}});
+    notes += "reference data: " + use.path + " " + use.sha256.substr(0, 16) + "\n";
   }
   for (const auto& file : filesOf(c)) {
     const std::string found = damage(file, folder);
     files.push_back({{"path", file.path}, {"sha256", file.sha256}, {"intact", found.empty()}, {"found", found}});
     if (!found.empty()) notes += "damaged: " + file.path + ": " + found + "\n";
   }
-  session.result({{"format", "sinew.status"}, {"version", 1}, {"stages", stages}, {"files", files}}, lines + notes);
+  session.result(
+      {{"format", "sinew.status"}, {"version", 1}, {"stages", stages}, {"files", files}, {"resources", resources}},
+      lines + notes);
   return ExitStatus::Done;
 }
 

@@ -42,77 +42,51 @@ Json stageJson(Stage stage, const std::string& outcome, const StageRecord* recor
 }
 
 /// A stage that was not run, and why: done already, or nothing to run it from.
-void passOver(RunReport& report, const Case& c, Stage stage, Session& session) {
-  const StageState state = stateOf(c, stage);
-  const auto it = c.stages.find(stage);
-  const StageRecord* record = state == StageState::Done ? &it->second : nullptr;
-  session.resultLine(
-      stageLine(stage, nameOf(state), record ? "up to date" : "", record ? record->summary : missingInput(c, stage)));
-  Json json = stageJson(stage, nameOf(state), record);
-  json["missing"] = missingInput(c, stage);
+void passOver(RunReport& report, const Case& c, const StageStatus& status, Session& session) {
+  const auto it = c.stages.find(status.stage);
+  const StageRecord* record = status.state == StageState::Done ? &it->second : nullptr;
+  session.resultLine(stageLine(status.stage, nameOf(status.state), record ? "up to date" : "",
+                               record ? record->summary : status.missing));
+  Json json = stageJson(status.stage, nameOf(status.state), record);
+  json["missing"] = status.missing;
   report.stages.push_back(json);
 }
 
-/// @returns whether the next stage may follow.
-bool runOne(RunReport& report, Case& c, Stage stage, const PipelineContext& context, Session& session) {
-  spdlog::debug("stage {}", nameOf(stage));
-  c = runStage(c, stage, context, session.job());
-  saveCase(c, context.case_dir);
+void tell(RunReport& report, const Case& c, Stage stage, Session& session) {
   const StageRecord& record = c.stages.at(stage);
-  report.ran.push_back(stage);
   report.stages.push_back(stageJson(stage, std::string{nameOf(record.outcome)}, &record));
   session.resultLine(
       stageLine(stage, std::string{nameOf(record.outcome)}, fixed(record.seconds, 2) + " s", record.summary));
   session.warn(record.warnings);
-  report.status = statusOf(record.outcome);
-  return record.outcome == Outcome::Converged;
 }
 
 }  // namespace
 
-std::vector<FileReference> enteredFiles(const Case& c) {
-  std::vector<FileReference> files;
-  for (const auto& image : c.images) files.push_back(image.file);
-  if (c.phantom) files.insert(files.end(), {c.phantom->images[0], c.phantom->images[1], c.phantom->beads});
-  return files;
-}
-
-RunReport runCase(Case& c, const std::filesystem::path& folder, const RunRequest& request, Session& session) {
-  const PipelineContext context = contextFor(session, folder);
+RunReport runAndStore(Case& c, const std::filesystem::path& folder, const RunRequest& request, Session& session) {
   RunReport report;
-  // A finished stage says nothing about its inputs any more: files that went missing or changed are named first.
-  for (const auto& file : enteredFiles(c)) checkedFile(file, folder);
-  for (const Stage stage : kStages) {
-    if (request.to && stage > *request.to) break;
-    const StageState state = stateOf(c, stage);
-    const bool forced = request.from && stage >= *request.from;
-    const bool wanted = request.to && stage <= *request.to;
-    const bool runnable = state != StageState::Missing && state != StageState::Blocked;
-    if ((state == StageState::Done && !forced) || (!runnable && !wanted)) {
-      passOver(report, c, stage, session);
-      continue;
-    }
-    if (session.job().cancelled()) {
-      report.status = ExitStatus::NotConverged;
-      break;
-    }
-    try {
-      if (!runOne(report, c, stage, context, session)) break;
-    } catch (const InputError& error) {
-      report.refused = error;
-      report.status = ExitStatus::Unusable;
-      break;
-    }
-  }
+  RunObserver observer;
+  observer.passed_over = [&](const Case& now, const StageStatus& status) { passOver(report, now, status, session); };
+  observer.ended = [&](const Case& now, Stage stage) {
+    spdlog::debug("stage {}", nameOf(stage));
+    saveCase(now, folder);
+    tell(report, now, stage, session);
+  };
+  CaseRun run = runCase(c, request, contextFor(session, folder), observer, session.job());
+  c = std::move(run.c);
+  report.ran = std::move(run.ran);
+  report.refused = std::move(run.refused);
+  report.status = report.refused ? ExitStatus::Unusable : statusOf(run.outcome);
   return report;
 }
 
 namespace {
 
 /// {"stages", "files", "truth_comparison"} of the contract, with format and version.
-Json runJson(const Case& c, const std::filesystem::path& folder, const RunReport& report, const std::string& format) {
+Json runJson(const Case& c, const std::filesystem::path& folder, const RunReport& report, const std::string& format,
+             Session& session) {
   const auto path = [&](const std::optional<FileReference>& file, Stage stage) {
-    const bool fresh = file && stateOf(c, stage) == StageState::Done;  // never name what is stale
+    const bool fresh =
+        file && stateOf(c, stage, session.resourceDir()) == StageState::Done;  // never name what is stale
     return fresh ? Json((folder / file->path).string()) : Json(nullptr);
   };
   Json json{{"format", format},
@@ -148,13 +122,14 @@ std::string truthTable(const Case& c) {
 
 ExitStatus finishRun(const Case& c, const std::filesystem::path& folder, const RunReport& report,
                      const std::string& format, Session& session) {
-  const Json json = runJson(c, folder, report, format);
+  const Json json = runJson(c, folder, report, format, session);
   if (report.refused) {
     session.failure(report.refused->detail(), report.refused->what(), json);
     return report.status;
   }
   std::string text;
-  if (c.truth && stateOf(c, Stage::Skeleton) == StageState::Done) text += "\n" + truthTable(c) + "\n";
+  if (c.truth && stateOf(c, Stage::Skeleton, session.resourceDir()) == StageState::Done)
+    text += "\n" + truthTable(c) + "\n";
   for (const auto& [name, path] : json["files"].items())
     if (path.is_string())
       text += name + std::string(name.size() < 8 ? 8 - name.size() : 1, ' ') + path.get<std::string>() + "\n";

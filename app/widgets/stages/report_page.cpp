@@ -61,7 +61,8 @@ void ReportStagePage::refresh() {
     return;
   }
   QStringList reasons;
-  for (const auto& reason : reasonsAgainstReport(shownCase())) reasons << "•  " + QString::fromStdString(reason);
+  for (const auto& reason : reasonsAgainstReport(shownCase(), workspace().resourceDir()))
+    reasons << "•  " + QString::fromStdString(reason);
   placeholder_->setText(reasons.isEmpty()
                             ? tr("Everything is there: run this stage to make the report.")
                             : tr("A report is only made from fresh results:\n\n%1").arg(reasons.join('\n')));

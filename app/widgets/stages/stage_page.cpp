@@ -51,7 +51,7 @@ StagePage::StagePage(Workspace& workspace, Stage stage, const QString& purpose, 
   run_->setObjectName("run_" + name);
   run_->setProperty("role", "primary");
   run_->setToolTip(tr("Compute this stage (Ctrl+R)"));
-  connect(run_, &QPushButton::clicked, this, [this] { workspace_.run({stage_}); });
+  connect(run_, &QPushButton::clicked, this, [this] { workspace_.runStage(stage_); });
 
   auto* head = new QHBoxLayout;
   head->setSpacing(10);

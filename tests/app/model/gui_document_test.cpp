@@ -4,6 +4,7 @@
 #include "app/model/stage_runner.h"
 #include "clinical/case/case_io.h"
 #include "tests/app/gui_support.h"
+#include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
 
 namespace sinew {
@@ -22,7 +23,7 @@ class CaseDocumentTest : public ::testing::Test {
   static void nameExaminer(Case& c) { c.exam.examiner = "A. B."; }
 
   test::TemporaryFolder folder_;
-  CaseDocument document_;
+  CaseDocument document_{test::resourceDir()};
   QString rejected_;
   int changes_ = 0;
 };
@@ -91,11 +92,12 @@ TEST_F(CaseDocumentTest, AResultIsTakenOnlyIfItsInputsAreStillToday) {
   Case same = computed, other = computed;
   other.sightings[0].uv_px.x() = 99;
   computed.landmarks = Triangulation{};
-  computed.stages[Stage::Landmarks] = {Outcome::Converged, inputHash(computed, Stage::Landmarks), 0.1, {}, "done"};
+  computed.stages[Stage::Landmarks] = {
+      Outcome::Converged, inputHash(computed, Stage::Landmarks, test::resourceDir()), 0.1, {}, "done"};
   const Stage stages[] = {Stage::Landmarks};
-  EXPECT_EQ(mergeResults(same, computed, stages), std::vector{Stage::Landmarks});
+  EXPECT_EQ(mergeResults(same, computed, stages, test::resourceDir()), std::vector{Stage::Landmarks});
   EXPECT_TRUE(same.landmarks.has_value());
-  EXPECT_TRUE(mergeResults(other, computed, stages).empty());
+  EXPECT_TRUE(mergeResults(other, computed, stages, test::resourceDir()).empty());
   EXPECT_FALSE(other.landmarks.has_value());
 }
 

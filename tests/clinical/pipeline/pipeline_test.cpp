@@ -6,8 +6,11 @@
 #include <sstream>
 
 #include "clinical/case/case_io.h"
+#include "clinical/pipeline/run_case.h"
+#include "clinical/pipeline/stage_table.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
+#include "core/model/rom_preset.h"
 #include "core/text.h"
 #include "imaging/radiograph/radiograph.h"
 #include "tests/support/resources.h"
@@ -83,7 +86,7 @@ class PipelineTest : public ::testing::Test {
     for (const Stage stage : kStages) {
       c_ = runStage(c_, stage, context_);
       ASSERT_EQ(c_.stages.at(stage).outcome, Outcome::Converged) << nameOf(stage);
-      ASSERT_EQ(stateOf(c_, stage), StageState::Done) << nameOf(stage);
+      ASSERT_EQ(stateOf(c_, stage, test::resourceDir()), StageState::Done) << nameOf(stage);
       if (stage == last) return;
     }
   }
@@ -106,7 +109,7 @@ TEST_F(PipelineTest, GoesTheWholeWay) {
     }
   EXPECT_TRUE(caseFromJson(caseToJson(c_), "case") == c_);
   for (const auto& [stage, record] : c_.stages) {
-    EXPECT_EQ(record.input_hash, inputHash(c_, stage)) << nameOf(stage);
+    EXPECT_EQ(record.input_hash, inputHash(c_, stage, test::resourceDir())) << nameOf(stage);
     EXPECT_THAT(record.summary, ::testing::Not(HasSubstr(c_.patient.name))) << nameOf(stage);
   }
 }
@@ -130,8 +133,8 @@ TEST_F(PipelineTest, ACancelledStageKeepsTheEarlierResultAndSaysSo) {
   EXPECT_EQ(after.stages.at(Stage::Skeleton).outcome, Outcome::Cancelled);
   ASSERT_TRUE(after.skeleton);
   EXPECT_EQ(after.skeleton->shape, before);
-  EXPECT_EQ(stateOf(after, Stage::Skeleton), StageState::Stale);
-  EXPECT_THAT(reasonsAgainstReport(after), Contains("Skeleton: stale"));
+  EXPECT_EQ(stateOf(after, Stage::Skeleton, test::resourceDir()), StageState::Stale);
+  EXPECT_THAT(reasonsAgainstReport(after, test::resourceDir()), Contains("Skeleton: stale"));
 }
 
 TEST_F(PipelineTest, ModelOfAFinishedExaminationKeepsItsLengthsWhenMadeAgain) {
@@ -139,7 +142,64 @@ TEST_F(PipelineTest, ModelOfAFinishedExaminationKeepsItsLengthsWhenMadeAgain) {
   const auto model = c_.model;
   c_ = runStage(c_, Stage::Musculature, context_);
   EXPECT_EQ(c_.model, model);
-  EXPECT_EQ(stateOf(c_, Stage::Exam), StageState::Done);
+  EXPECT_EQ(stateOf(c_, Stage::Exam, test::resourceDir()), StageState::Done);
+}
+
+TEST_F(PipelineTest, MusculatureMadeAnewFromOtherReferenceDataStillCarriesTheExaminationThatHolds) {
+  runTo(Stage::Exam);
+  const auto model = c_.model;
+  c_.stages[Stage::Musculature].input_hash = "of other reference data";
+  c_ = runStage(c_, Stage::Musculature, context_);  // the same musculature comes out
+  EXPECT_EQ(stateOf(c_, Stage::Exam, test::resourceDir()), StageState::Done);
+  EXPECT_EQ(c_.model, model);
+}
+
+/// What a run told: "+skeleton" ran, "-exam" was passed over.
+std::string told(const Case& c, const RunRequest& request, const PipelineContext& context,
+                 CaseRun* result = nullptr) {
+  std::string text;
+  RunObserver observer;
+  observer.passed_over = [&](const Case&, const StageStatus& status) { text += " -" + nameOf(status.stage); };
+  observer.ended = [&](const Case&, Stage stage) { text += " +" + nameOf(stage); };
+  CaseRun run = runCase(c, request, context, observer);
+  if (result) *result = run;
+  return text;
+}
+
+TEST_F(PipelineTest, ARunTakesTheStagesThatAreNotDone) {
+  CaseRun run;
+  EXPECT_EQ(told(c_, {{}, Stage::Landmarks}, context_, &run), " +images +calibration +landmarks");
+  EXPECT_EQ(told(run.c, {{}, Stage::Landmarks}, context_), " -images -calibration -landmarks");
+  EXPECT_EQ(told(run.c, {Stage::Calibration, Stage::Landmarks}, context_), " -images +calibration +landmarks");
+  Case c = run.c;
+  c.sightings.clear();
+  EXPECT_EQ(told(c, {}, context_, &run), " -images -calibration -landmarks -skeleton -musculature -exam -report");
+  EXPECT_FALSE(run.refused);
+  EXPECT_EQ(told(c, {{}, Stage::Skeleton}, context_, &run), " -images -calibration");
+  ASSERT_TRUE(run.refused);
+  EXPECT_THAT(run.refused->what(), HasSubstr("no landmark has been picked"));
+}
+
+TEST_F(PipelineTest, ARunMakesAgainWhatWasLost) {
+  runTo(Stage::Exam);
+  writeFileAtomically(folder_ / "results/model.json", "{}");
+  CaseRun run;
+  EXPECT_EQ(told(c_, {{}, Stage::Exam}, context_, &run),
+            " -images -calibration -landmarks -skeleton -musculature +exam");
+  EXPECT_TRUE(isUndamaged(*run.c.model, folder_.path()));
+  EXPECT_EQ(run.c.model, c_.model);
+  std::filesystem::remove(folder_ / c_.musculature->path);
+  EXPECT_EQ(told(c_, {{}, Stage::Exam}, context_, &run),
+            " -images -calibration -landmarks -skeleton +musculature -exam");
+  EXPECT_TRUE(isUndamaged(*run.c.musculature, folder_.path()));
+}
+
+TEST_F(PipelineTest, ResultsAreNotWrittenThroughALinkThatLeadsOut) {
+  runTo(Stage::Skeleton);
+  const test::TemporaryFolder outside;
+  std::filesystem::create_directory_symlink(outside.path(), folder_ / "results");
+  EXPECT_THAT(complaintOf([&] { runStage(c_, Stage::Musculature, context_); }), HasSubstr("leads out"));
+  EXPECT_TRUE(std::filesystem::is_empty(outside.path()));
 }
 
 TEST_F(PipelineTest, AReportThatCannotBeDrawnLeavesTheEarlierOne) {
@@ -153,6 +213,42 @@ TEST_F(PipelineTest, AReportThatCannotBeDrawnLeavesTheEarlierOne) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results")) files += entry.is_regular_file();
   EXPECT_EQ(files, 2);  // model and report: nothing half-written
+}
+
+/// The files of the resources that the row of a stage lists, and no others.
+void copyResourcesOf(Stage stage, const std::filesystem::path& folder) {
+  for (const char* path : rowOf(stage).resources) {
+    std::filesystem::create_directories((folder / path).parent_path());
+    std::filesystem::copy(test::resourceDir() / path, folder / path);
+  }
+}
+
+/// The reference model as far as those files make it.
+Model referenceFrom(const std::filesystem::path& resource_dir) {
+  if (std::filesystem::exists(resource_dir / "muscles")) return loadReferenceModel(resource_dir);
+  Model model = referenceModel();
+  model.skeleton = loadReferenceSkeleton(resource_dir);
+  if (std::filesystem::exists(resource_dir / "rom"))
+    setStops(model.skeleton, loadRomPreset(resource_dir, kDefaultPreset, model.skeleton));
+  return model;
+}
+
+TEST_F(PipelineTest, AStageReadsNothingThatItsRowDoesNotList) {
+  runTo(Stage::Exam);
+  for (const Stage stage : {Stage::Landmarks, Stage::Skeleton, Stage::Musculature, Stage::Exam}) {
+    const test::TemporaryFolder resources;
+    copyResourcesOf(stage, resources.path());
+    PipelineContext context = context_;
+    context.resource_dir = resources.path();
+    const Model reference = referenceFrom(resources.path());
+    context.reference = &reference;
+    context.retargeting = {};  // read from the resources
+    Case c = c_;
+    for (const Stage earlier : kStages)
+      if (earlier < stage) c.stages[earlier].input_hash = inputHash(c, earlier, resources.path());
+    Case again = runStage(c, stage, context);
+    EXPECT_EQ(again.stages.at(stage).summary, c_.stages.at(stage).summary) << nameOf(stage);
+  }
 }
 
 TEST_F(PipelineTest, UnusableImagesAreNamed) {
@@ -210,8 +306,8 @@ TEST(Pipeline, ARealWristPairIsTriangulatedAndThenLacksKnownLandmarks) {
   EXPECT_LT(c.landmarks->rms_px, 0.5);
   for (const auto& point : c.landmarks->points)  // 0.2 mm: twice the accuracy stated with the table
     EXPECT_LT((point.p_WL - truth_m.at(point.name)).norm(), 0.2e-3) << point.name;
-  EXPECT_EQ(stateOf(c, Stage::Skeleton), StageState::Missing);
-  EXPECT_EQ(stateOf(c, Stage::Musculature), StageState::Blocked);
+  EXPECT_EQ(stateOf(c, Stage::Skeleton, test::resourceDir()), StageState::Missing);
+  EXPECT_EQ(stateOf(c, Stage::Musculature, test::resourceDir()), StageState::Blocked);
   EXPECT_THAT(complaintOf([&] { runStage(c, Stage::Skeleton, context); }), HasSubstr("no known landmark"));
 }
 

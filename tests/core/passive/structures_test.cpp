@@ -224,6 +224,16 @@ TEST(PassiveStructures, SurviveTheModelFileAndOldFilesGetThem) {
     EXPECT_NEAR(old.passive_moments[i].upper_Nm, model.passive_moments[i].upper_Nm, 1e-9);
 }
 
+TEST(PassiveStructures, ThatEndElsewhereThanTheStopAreAFinding) {
+  Model model = reference();
+  EXPECT_TRUE(validateModel(model).empty());
+  model.passive_moments[std::size_t(model.skeleton.coordinateIndex("knee_flexion_r"))].upper_rad -= 0.01;
+  const Warnings findings = validateModel(model);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "passive_structures");
+  EXPECT_THAT(findings[0].message, testing::HasSubstr("knee_flexion_r"));
+}
+
 TEST(PassiveStructures, ABadFileIsNamed) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "skeleton");
