@@ -4,6 +4,8 @@
 
 #include "clinical/exam/physical_exam.h"
 #include "core/model/physical_scaling.h"
+#include "core/rom/tests/clinical_sweep.h"
+#include "core/rom/tests/threshold.h"
 #include "tests/support/resources.h"
 
 namespace sinew {
@@ -96,12 +98,12 @@ TEST(PatientBody, IsAsOldAsOnTheDayOfTheExamination) {
 TEST(PatientBody, AHealthyChildIsExaminedLikeTheAdult) {
   const ShapeParameters shape = loadShapePreset(test::resourceDir(), "child").shape;
   const Model child = modelOf(shape, weighing(23)), adult_forces = deformedModel(reference(), shape);
-  const ExamProtocol protocol = loadExamProtocol(test::resourceDir());
+  const ClinicalTests protocol = loadClinicalTests(test::resourceDir());
   for (const char* id : {"popliteal_unilateral", "silfverskioeld_knee_extended", "silfverskioeld_knee_flexed"}) {
-    const ExamTest& test = protocol.test(id);
-    const double adult_deg = simulateTest(reference(), test, 'r', test.threshold_Nm * 73 / 75).angle_deg;
-    const double child_deg = simulateTest(child, test, 'r', test.threshold_Nm * 23 / 75).angle_deg;
-    const double wrong_deg = simulateTest(adult_forces, test, 'r', test.threshold_Nm * 23 / 75).angle_deg;
+    const ClinicalTest& test = protocol.test(id);
+    const double adult_deg = simulateTest(reference(), test, 'r', scaledThreshold_Nm(test, 73)).written_deg;
+    const double child_deg = simulateTest(child, test, 'r', scaledThreshold_Nm(test, 23)).written_deg;
+    const double wrong_deg = simulateTest(adult_forces, test, 'r', scaledThreshold_Nm(test, 23)).written_deg;
     std::printf("%s: adult %.1f, child %.1f, child with an adult's forces %.1f deg\n", id, adult_deg, child_deg,
                 wrong_deg);
     EXPECT_NEAR(child_deg, adult_deg, 5) << id;
