@@ -88,6 +88,9 @@ std::vector<std::size_t> slipsAmong(const Skeleton& reference, const SightingLis
     if (contradicts[std::size_t(point)] || (alone_of_bone && others_fit)) slips.push_back(i);
   }
   std::ranges::sort(slips, [&](std::size_t a, std::size_t b) { return sigmas[a] > sigmas[b]; });
+  // Where the picks of a landmark contradict each other, one of them is the slip: the one farther off.
+  std::set<int> named;
+  std::erase_if(slips, [&](std::size_t i) { return !named.insert(list.items[i].point).second; });
   return slips;
 }
 

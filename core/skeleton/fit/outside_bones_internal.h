@@ -27,7 +27,7 @@ void warnOfOutsideBones(std::span<const OutsideBone> bones, Warnings& warnings);
 /// - several landmarks of one bone, or one whose picks agree - say something about the bone and are kept.
 /// @param sigmas of every item of the list. @param limit what lies far off; beyond half of it a landmark counts as
 /// disagreeing with its bone. @param contradicts by landmark of the list: its picks do not meet.
-/// @return indices into list.items, the worst first.
+/// @return indices into list.items, the worst first; one of a landmark at most.
 std::vector<std::size_t> slipsAmong(const Skeleton& reference, const SightingList& list,
                                     std::span<const double> sigmas, double limit,
                                     const std::vector<bool>& contradicts);

@@ -189,9 +189,10 @@ TEST_F(FitSkeleton, SeveralGrossErrorsAreLeftOutAndNamed) {
             5);
   for (const std::size_t i : {87u, 62u, 41u, 20u, 3u}) sightings.erase(sightings.begin() + static_cast<long>(i));
   const SkeletonFit without = fit(sightings);
+  // Two ways to one solution end where a step gains 1e-8: 5e-3 mm and deg is a thousandth of the widest interval.
   for (std::size_t i = 0; i < without.figures.size(); ++i) {
-    EXPECT_NEAR(result.figures[i].value, without.figures[i].value, 1e-3) << without.figures[i].quantity;
-    EXPECT_NEAR(result.figures[i].upper95, without.figures[i].upper95, 1e-3) << without.figures[i].quantity;
+    EXPECT_NEAR(result.figures[i].value, without.figures[i].value, 5e-3) << without.figures[i].quantity;
+    EXPECT_NEAR(result.figures[i].upper95, without.figures[i].upper95, 5e-3) << without.figures[i].quantity;
   }
 }
 
