@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clinical/case/case.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

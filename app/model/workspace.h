@@ -10,7 +10,7 @@
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
 #include "clinical/report/norms.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

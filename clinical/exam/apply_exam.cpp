@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double kUnchanged = 1e-4;             // a factor nearer to 1 than this is no change
+constexpr double kUnchanged = 1e-4;                         // a factor nearer to 1 than this is no change
 constexpr std::string_view kAdultPreset = "average-adult";  // whose norms an adult patient has
 
 const ExamEntry* entryOf(const PhysicalExam& exam, const ClinicalTest& test, char side) {
@@ -24,12 +24,12 @@ struct Side {
   char side;
   std::vector<const ClinicalTest*> form;
   const std::vector<ClinicalSweep>* sweeps;  ///< by row of the form
-  std::vector<const ExamEntry*> entry;  ///< by row; nullptr: none
-  std::vector<double> threshold_Nm;     ///< by row
-  std::vector<TestNorm> norm;           ///< by row
-  std::vector<FreeGroup> groups;        ///< that measured tests may change
-  std::vector<MeasuredTest> measured;   ///< those tests
-  std::vector<std::size_t> row;         ///< of every measured test
+  std::vector<const ExamEntry*> entry;       ///< by row; nullptr: none
+  std::vector<double> threshold_Nm;          ///< by row
+  std::vector<TestNorm> norm;                ///< by row
+  std::vector<FreeGroup> groups;             ///< that measured tests may change
+  std::vector<MeasuredTest> measured;        ///< those tests
+  std::vector<std::size_t> row;              ///< of every measured test
 };
 
 FreeGroup freeGroup(const Model& model, const LengthGroup& group, char side) {
@@ -63,8 +63,9 @@ void gatherMeasured(const Model& model, const ClinicalTests& tests, Side& s) {
     m.measured_deg = *s.entry[i]->measured_deg;
     m.measured_place = m.sweep->placeOf_deg(m.test->form->angle_deg(m.measured_deg));
     for (const auto& name : m.test->form->groups)
-      m.groups.push_back(int(std::ranges::find_if(s.groups, [&](const FreeGroup& g) { return g.group->name == name; }) -
-                             s.groups.begin()));
+      m.groups.push_back(
+          int(std::ranges::find_if(s.groups, [&](const FreeGroup& g) { return g.group->name == name; }) -
+              s.groups.begin()));
     s.measured.push_back(std::move(m));
     s.row.push_back(i);
   }
@@ -87,9 +88,9 @@ Side sideOf(const Model& model, const PhysicalExam& exam, const ClinicalTests& t
 
 struct SideFit {
   Outcome outcome = Outcome::Converged;
-  std::vector<ExamAim> aims;                                ///< by measured test
-  std::vector<double> factors, fiber_only;                  ///< by group; empty if there is no solution
-  std::vector<FactorInterval> intervals;                    ///< by group; empty if there are none
+  std::vector<ExamAim> aims;                ///< by measured test
+  std::vector<double> factors, fiber_only;  ///< by group; empty if there is no solution
+  std::vector<FactorInterval> intervals;    ///< by group; empty if there are none
 };
 
 /// Where solved factors are expected: what each group's own test asks of it alone is in its aim already.
@@ -175,7 +176,8 @@ void addLines(const ClinicalTests& tests, const Side& s, const SideFit& fit, Exa
   const LengthFactors factors =
       fit.factors.empty() ? LengthFactors{} : lengthFactors(s.groups, fit.factors, Scaled::FiberAndTendon);
   std::vector<SimulatedTest> after;
-  for (std::size_t i = 0; i < s.form.size(); ++i) after.push_back((*s.sweeps)[i].simulate(s.threshold_Nm[i], factors));
+  for (std::size_t i = 0; i < s.form.size(); ++i)
+    after.push_back((*s.sweeps)[i].simulate(s.threshold_Nm[i], factors));
   std::vector<SimulatedTest> after_measured;
   for (const std::size_t i : s.row) after_measured.push_back(after[i]);
   const SideResult side{&s.measured, &s.groups, &fit.aims, &fit.factors, &after_measured};
@@ -249,8 +251,8 @@ ExamFit Examiner::fit(const PhysicalExam& exam, const Job& job, bool with_interv
   return result;
 }
 
-ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests, const ExamSubject& subject,
-                  const Job& job) {
+ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests,
+                  const ExamSubject& subject, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   const auto share = [&](double from, double to) {
     return Job{[&job, from, to](double done, std::string_view what) { job.report(std::lerp(from, to, done), what); },

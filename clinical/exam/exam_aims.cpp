@@ -66,9 +66,8 @@ ExamAim aimOf(const MeasuredTest& test, const std::vector<FreeGroup>& groups, bo
   aim.unattainable = aim.unattainable && asked >= kMostFactor;
   // A body tighter than the norm is never made longer for it, a laxer one never shorter: the factor is monotone in
   // the measurement, also where the norm of the age is not what this body has by itself.
-  const double factor = measured < tight
-                            ? std::min(1.0, std::max(asked, 1 - kSteepest_per_deg * (tight - measured)))
-                            : std::max(1.0, std::min(asked, 1 + kSteepest_per_deg * (measured - lax)));
+  const double factor = measured < tight ? std::min(1.0, std::max(asked, 1 - kSteepest_per_deg * (tight - measured)))
+                                         : std::max(1.0, std::min(asked, 1 + kSteepest_per_deg * (measured - lax)));
   if (factor == asked && asked > kLeastFactor && asked < kMostFactor) {
     aim.place = test.measured_place;
     return aim;

@@ -22,8 +22,8 @@ enum class Scaled { FiberAndTendon, FiberOnly };
 struct FreeGroup {
   const LengthGroup* group;
   std::vector<int> units;
-  double mean_length_m = 0;       ///< fibre + tendon, of the units
-  double mean_fiber_share = 1;    ///< fibre / (fibre + tendon)
+  double mean_length_m = 0;     ///< fibre + tendon, of the units
+  double mean_fiber_share = 1;  ///< fibre / (fibre + tendon)
 };
 
 /// A test that was measured on this side and changes lengths, ready to be simulated for any.
@@ -31,9 +31,9 @@ struct MeasuredTest {
   const ClinicalTest* test;
   const ClinicalSweep* sweep;
   double threshold_Nm;
-  TestNorm norm;  ///< of the patient's age and sex
-  double measured_deg;    ///< as written
-  double measured_place;  ///< of the measured angle
+  TestNorm norm;            ///< of the patient's age and sex
+  double measured_deg;      ///< as written
+  double measured_place;    ///< of the measured angle
   std::vector<int> groups;  ///< that it may change, as indices of the free groups, the one that it is a test of first
 };
 

@@ -24,7 +24,8 @@ std::string normText(const MeasuredTest& t) {
   const double mean = t.test->written_deg(t.norm.mean_deg);
   if (!std::isfinite(mean)) return "the SD of its measurement";
   std::string text = "the norm, " + degrees(mean);
-  if (std::isfinite(t.norm.sd_deg)) text += " -+ " + degrees(std::max(t.norm.sd_deg, t.test->form->measurement_sd_deg));
+  if (std::isfinite(t.norm.sd_deg))
+    text += " -+ " + degrees(std::max(t.norm.sd_deg, t.test->form->measurement_sd_deg));
   return text;
 }
 
@@ -44,9 +45,8 @@ const MeasuredTest* opponent(const SideResult& side, std::size_t i) {
   const MeasuredTest* worst = nullptr;
   double most = 0.5;
   for (std::size_t k = 0; k < side.tests->size(); ++k) {
-    const bool shares = std::ranges::any_of((*side.tests)[i].groups, [&](int g) {
-      return std::ranges::count((*side.tests)[k].groups, g) > 0;
-    });
+    const bool shares = std::ranges::any_of(
+        (*side.tests)[i].groups, [&](int g) { return std::ranges::count((*side.tests)[k].groups, g) > 0; });
     if (k == i || !shares || missed(k) * missed(i) > 0 || std::abs(missed(k)) < most) continue;
     most = std::abs(missed(k));
     worst = &(*side.tests)[k];
@@ -93,7 +93,8 @@ std::string residualReason(const SideResult& side, std::size_t i, const Clinical
     const double a = rule.first == t.test->id ? t.measured_deg : found->measured_deg;
     const double b = rule.first == t.test->id ? found->measured_deg : t.measured_deg;
     const double value = rule.sum ? a + b : a - b;
-    if (value < rule.least_deg || value > rule.most_deg) return "contradicts " + found->test->title + ": " + rule.text;
+    if (value < rule.least_deg || value > rule.most_deg)
+      return "contradicts " + found->test->title + ": " + rule.text;
   }
   if (aim.faded)
     return "outside of " + normText(t) + ", but this body by itself has " + degrees(own_deg) +

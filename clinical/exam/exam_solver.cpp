@@ -66,7 +66,8 @@ class ExamCost : public ceres::CostFunction {
     if (!(std::abs(along) > 1e-6)) return;
     std::vector<double> f = x;
     for (std::size_t g = 0; g < x.size(); ++g) {
-      if (std::ranges::none_of((*problem_.groups)[g].units, [&](int u) { return test.sweep->stretches(u); })) continue;
+      if (std::ranges::none_of((*problem_.groups)[g].units, [&](int u) { return test.sweep->stretches(u); }))
+        continue;
       f[g] = x[g] + kFactor;
       const double longer = excess(place, f);
       f[g] = x[g] - kFactor;

@@ -21,10 +21,10 @@ std::vector<FactorCurve> factorCurves(const Examiner& examiner, bool leave_in_no
 /// Random plausible examinations: right side, every test with probability 1/2, uniform between the form's doubt
 /// limits.
 struct RandomExams {
-  int exams = 0, tests = 0;  ///< measured tests that change lengths
-  int off = 0;               ///< residual above kNamedResidual_deg
-  int unnamed = 0;           ///< of those without a reason
-  int not_solved = 0;        ///< examinations
+  int exams = 0, tests = 0;                          ///< measured tests that change lengths
+  int off = 0;                                       ///< residual above kNamedResidual_deg
+  int unnamed = 0;                                   ///< of those without a reason
+  int not_solved = 0;                                ///< examinations
   std::vector<std::pair<std::string, int>> reasons;  ///< first words of the reasons, most frequent first
 };
 RandomExams randomExams(const Examiner& examiner, bool leave_in_norm, int exams, unsigned seed);

@@ -22,8 +22,8 @@ std::string degrees(double value) {
 void checkContradictions(const PhysicalExam& exam, const ClinicalTests& tests, Warnings& warnings) {
   for (const char side : {'r', 'l'})
     for (const TestContradiction* rule : contradictionsOf(exam, tests, side))
-      warnings.push_back({"exam_contradiction", std::string{side == 'r' ? "right" : "left"} + ": " + rule->text + " (" +
-                                                    tests.test(rule->first).title + " against " +
+      warnings.push_back({"exam_contradiction", std::string{side == 'r' ? "right" : "left"} + ": " + rule->text +
+                                                    " (" + tests.test(rule->first).title + " against " +
                                                     tests.test(rule->second).title + ")"});
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/job.h"
 #include "core/model/model.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
@@ -76,15 +76,15 @@ struct GroupFactor {
   /// 95 % interval: from the SD of the measurements, the band of the examiners' moment, the error of the bones, and
   /// the prior where the measurements say little.
   double lower95 = std::numeric_limits<double>::quiet_NaN(), upper95 = std::numeric_limits<double>::quiet_NaN();
-  bool determined = false;  ///< the interval is less than half as wide as without any measurement
+  bool determined = false;       ///< the interval is less than half as wide as without any measurement
   double fiber_only_factor = 1;  ///< of fibre length, tendons unchanged, that meets the same tests
   friend bool operator==(const GroupFactor&, const GroupFactor&) = default;
 };
 
 struct ExamFit {
   Outcome outcome = Outcome::NotRun;
-  std::vector<ExamComparison> tests;  ///< every test of the form, right then left
-  std::vector<GroupFactor> groups;    ///< every group, right then left
+  std::vector<ExamComparison> tests;             ///< every test of the form, right then left
+  std::vector<GroupFactor> groups;               ///< every group, right then left
   std::map<std::string, double> length_factors;  ///< by unit, only those that changed
   bool left_in_norm = true;                      ///< PhysicalExam::leave_in_norm of this fit
   double seconds = 0;
@@ -102,8 +102,8 @@ struct ExamSubject {
 /// least squares (0.6-1.4), weights 1 / measurement SD, a weak pull to 1. The sides do not know of each other: a side
 /// that cannot be solved is a warning and keeps its lengths. What cannot be met stays as a residual with its reason.
 /// Method: docs/methods/examination.md.
-ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests, const ExamSubject& subject,
-                  const Job& job = {});
+ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests,
+                  const ExamSubject& subject, const Job& job = {});
 
 /// The model with the lengths of a fit.
 Model withLengthFactors(const Model& model, const std::map<std::string, double>& factors);

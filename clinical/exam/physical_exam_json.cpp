@@ -80,8 +80,8 @@ ExamComparison comparisonFromJson(const JsonReader& json) {
 }
 
 GroupFactor groupFromJson(const JsonReader& json) {
-  json.allowOnly({"group", "side", "tested", "length_factor", "lower95", "upper95", "determined",
-                  "fiber_only_length_factor"});
+  json.allowOnly(
+      {"group", "side", "tested", "length_factor", "lower95", "upper95", "determined", "fiber_only_length_factor"});
   return {.group = json["group"].text(),
           .side = sideFromJson(json["side"]),
           .tested = json["tested"].boolean(),

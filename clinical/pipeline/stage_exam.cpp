@@ -93,9 +93,8 @@ constinit const StageRow kExamRow{
     .stage = Stage::Exam,
     .name = "exam",
     .title = "Examination",
-    .revision =
-        5,  // 2: on the retargeted musculature; 3: on the very file of it; 4: the patient's own mass and joints;
-            // 5: capsules and ligaments in the tests, norms of the age, intervals
+    .revision = 5,  // 2: on the retargeted musculature; 3: on the very file of it; 4: the patient's own mass and
+                    // joints; 5: capsules and ligaments in the tests, norms of the age, intervals
     .resources = kResources,
     .inputs = inputs,
     .has_result = hasResult,

@@ -128,9 +128,12 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
   report.bones = boneTable(*c.skeleton, norms, who);
   report.exam = examTable(*c.exam_fit, c.exam, protocol);
   report.muscles = muscleTable(*c.exam_fit, protocol);
-  report.annexes = {residualTable(*c.exam_fit, protocol), definitionTable(*c.skeleton, norms),
-                    protocolTable(*c.exam_fit, protocol), lengthFactorTable(*c.exam_fit),
-                    landmarkTable(c),                     provenanceTable(c, case_dir),
+  report.annexes = {residualTable(*c.exam_fit, protocol),
+                    definitionTable(*c.skeleton, norms),
+                    protocolTable(*c.exam_fit, protocol),
+                    lengthFactorTable(*c.exam_fit),
+                    landmarkTable(c),
+                    provenanceTable(c, case_dir),
                     resourceTable(resource_dir)};
   if (c.truth) report.annexes.push_back(truthTable(c));
   report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir, resource_dir), protocol);

@@ -170,17 +170,19 @@ ReportTable muscleTable(const ExamFit& fit, const ClinicalTests& protocol) {
 
   ReportTable table;
   table.title = "Muscle lengths found from the examination";
-  table.columns = {"Muscle group", "Length factor right (95 %)", "Length factor left (95 %)", "Fibre only, R / L",
-                   "Force factor", "Limits"};
+  table.columns = {
+      "Muscle group", "Length factor right (95 %)", "Length factor left (95 %)", "Fibre only, R / L", "Force factor",
+      "Limits"};
   for (const auto& group : protocol.groups)
     table.rows.push_back({group.title, factorText(fit, group, 'r'), factorText(fit, group, 'l'),
                           fiberText(fit, group), kNotMeasured, limited(group)});
   table.footnote =
-      std::string{"Length factor: fibre and tendon length relative to what this skeleton calls for; below 1 short, "
-                  "above 1 long. Fibre only: factor of the fibre alone, tendon unchanged, that meets the same tests. "
-                  "undetermined: the tests narrow the factor to less than half of what is possible. not measured: no "
-                  "test of the group was examined, or no strength test entered. Limits: tests that the group carries "
-                  "at their end. "} +
+      std::string{
+          "Length factor: fibre and tendon length relative to what this skeleton calls for; below 1 short, "
+          "above 1 long. Fibre only: factor of the fibre alone, tendon unchanged, that meets the same tests. "
+          "undetermined: the tests narrow the factor to less than half of what is possible. not measured: no "
+          "test of the group was examined, or no strength test entered. Limits: tests that the group carries "
+          "at their end. "} +
       (fit.left_in_norm ? "Measurements inside the norm of the age, or within their SD of its mean, were left at 1; "
                           "beyond, lengths fade in."
                         : "Every measurement counts as it stands, inside the norm too.");

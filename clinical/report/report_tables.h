@@ -5,7 +5,7 @@
 
 #include "clinical/report/norms.h"
 #include "clinical/report/report.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

@@ -137,7 +137,8 @@ ExamFit RandomCase::examFit() {
     fit.tests.push_back(c);
   }
   for (int i = below(3); i > 0; --i)
-    fit.groups.push_back({text(), side(), coin(), number(0.6, 1.4), numberOrNaN(), numberOrNaN(), coin(), number(0.1, 2)});
+    fit.groups.push_back(
+        {text(), side(), coin(), number(0.6, 1.4), numberOrNaN(), numberOrNaN(), coin(), number(0.1, 2)});
   return fit;
 }
 

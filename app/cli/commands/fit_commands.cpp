@@ -5,9 +5,9 @@
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_results_json.h"
 #include "clinical/exam/physical_exam_json.h"
-#include "core/passive/structures.h"
 #include "clinical/pipeline/patient_fit.h"
 #include "clinical/report/figure_texts.h"
+#include "core/passive/structures.h"
 #include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
@@ -81,12 +81,14 @@ Json examJson(const ExamFit& fit, double mass_kg) {
 std::string examTable(const ExamFit& fit) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& t : fit.tests)
-    rows.push_back({t.test, std::string(1, t.side), t.measured_deg ? fixed(*t.measured_deg, 1) : "not measured",
-                    std::isfinite(t.norm_mean_deg) ? fixed(t.norm_mean_deg, 0) + " +- " + fixed(t.norm_sd_deg, 0) : "-",
-                    fixed(t.simulated_before_deg, 1), fixed(t.simulated_after_deg, 1), fixed(t.residual_deg, 1),
-                    fixed(t.threshold_Nm, 1), t.limited_by.empty() ? "" : t.limited_by.front()});
+    rows.push_back(
+        {t.test, std::string(1, t.side), t.measured_deg ? fixed(*t.measured_deg, 1) : "not measured",
+         std::isfinite(t.norm_mean_deg) ? fixed(t.norm_mean_deg, 0) + " +- " + fixed(t.norm_sd_deg, 0) : "-",
+         fixed(t.simulated_before_deg, 1), fixed(t.simulated_after_deg, 1), fixed(t.residual_deg, 1),
+         fixed(t.threshold_Nm, 1), t.limited_by.empty() ? "" : t.limited_by.front()});
   return textTable(
-      {"test", "side", "measured deg", "norm deg", "before deg", "after deg", "residual deg", "N m", "held by"}, rows);
+      {"test", "side", "measured deg", "norm deg", "before deg", "after deg", "residual deg", "N m", "held by"},
+      rows);
 }
 
 std::string factorTable(const ExamFit& fit, const ClinicalTests& tests) {
@@ -98,9 +100,10 @@ std::string factorTable(const ExamFit& fit, const ClinicalTests& tests) {
                       fixed(g.fiber_only_factor, 3)});
   if (rows.empty()) return "";
   return "\n" + textTable({"muscles", "side", "length factor", "95 % interval", "", "fibre only"}, rows) +
-         (fit.left_in_norm ? "Inside the norm of the age, or within their SD of its mean, measurements change nothing "
-                             "(--solve-in-norm: they do).\n"
-                           : "Every measurement counts as it stands, inside the norm too.\n");
+         (fit.left_in_norm
+              ? "Inside the norm of the age, or within their SD of its mean, measurements change nothing "
+                "(--solve-in-norm: they do).\n"
+              : "Every measurement counts as it stands, inside the norm too.\n");
 }
 
 std::string reasonText(const ExamFit& fit) {

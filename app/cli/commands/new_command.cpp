@@ -6,7 +6,7 @@
 #include "clinical/case/case_io.h"
 #include "clinical/exam/physical_exam.h"
 #include "core/file.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {

@@ -31,8 +31,7 @@ Json normJson(const TestNorm& norm) {
           {"accept_deg", {numberOrNull(norm.accept_min_deg), numberOrNull(norm.accept_max_deg)}}};
 }
 
-Json reportJson(const RomReport& report, const std::string& model, const std::string& preset,
-                double mass_kg) {
+Json reportJson(const RomReport& report, const std::string& model, const std::string& preset, double mass_kg) {
   Json tests = Json::array(), couplings = Json::array();
   for (const auto& l : report.tests)
     tests.push_back({{"test", l.test->id},
@@ -56,8 +55,8 @@ Json reportJson(const RomReport& report, const std::string& model, const std::st
                          {"norm", normJson(l.norm)},
                          {"difference_deg", numberOrNull(l.off_deg)},
                          {"right_way", l.right_way}});
-  return {{"format", "sinew.rom_tests"}, {"version", 1}, {"model", model}, {"norms", preset},
-          {"mass_kg", mass_kg}, {"tests", tests}, {"couplings", couplings}};
+  return {{"format", "sinew.rom_tests"}, {"version", 1},   {"model", model},        {"norms", preset},
+          {"mass_kg", mass_kg},          {"tests", tests}, {"couplings", couplings}};
 }
 
 std::string reportText(const RomReport& report, const std::string& preset) {
@@ -88,7 +87,8 @@ void addRomTestsCommand(Commands& commands) {
       commands.app, "rom-tests", "clinical range-of-motion tests simulated on a model, against published norms",
       "sinew rom-tests reference:athlete\n"
       "  Degrees in the signs of the coordinates. A test ends where the passive moment reaches "
-      "its threshold\n  or the joint its stop; thresholds scale with body mass. Norms: those of the model's preset, else of the "
+      "its threshold\n  or the joint its stop; thresholds scale with body mass. Norms: those of the model's preset, "
+      "else of the "
       "average adult.");
   command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
   command.add_option("--norms", o->preset, "average-adult or athlete");

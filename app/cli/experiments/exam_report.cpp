@@ -67,18 +67,18 @@ ExperimentReport examReport(ExperimentContext& context) {
       steepest = std::max(steepest, c.largest_slope_per_deg);
       back = std::max(back, c.largest_step_back);
     }
-    report.text += option + "\n" +
-                   textTable({"test", "group", "measured deg", "factor", "steepest, 1/deg", "monotone"},
-                             curveRows(curves)) +
-                   "\n";
+    report.text +=
+        option + "\n" +
+        textTable({"test", "group", "measured deg", "factor", "steepest, 1/deg", "monotone"}, curveRows(curves)) +
+        "\n";
     report.figures.push_back({leave ? "exam-factors" : "exam-factors-in-norm",
                               figureOf(curves, tests, "Length factor over the measured angle, " + option)});
     const RandomExams r = randomExams(examiner, leave, exams, kSeed);
     unnamed += r.unnamed;
     random.push_back(randomRow(option, r));
   }
-  report.text += textTable({"random examinations", "", "tests", "off > 1 deg", "without a reason", "not solved", "why"},
-                           random);
+  report.text +=
+      textTable({"random examinations", "", "tests", "off > 1 deg", "without a reason", "not solved", "why"}, random);
   report.verdicts = {
       {"steepest change of a factor", "-", "< 0.02 per deg", fixed(steepest, 4), steepest < kSteepest_per_deg},
       {"factor against the measurement", "-", "monotone", back < kStepBack ? "monotone" : fixed(back, 5),

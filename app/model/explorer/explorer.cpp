@@ -86,15 +86,16 @@ const PostureEvaluation& Explorer::evaluation() const {
 }
 
 void Explorer::computeRanges() {
-  ranges_job_.post(tr("Joint ranges"), [=, this, model = model_, clinical = clinical_, examiner_Nm = examiner_Nm_](const Job& job) {
-    auto ranges = muscleInducedRanges(*model, clinical, job, examiner_Nm);
-    return [this, model, clinical, ranges = std::move(ranges)] {
-      if (model != model_) return;
-      ranges_ = ranges;
-      ranges_current_ = clinical == clinical_;
-      emit rangesChanged();
-    };
-  });
+  ranges_job_.post(tr("Joint ranges"),
+                   [=, this, model = model_, clinical = clinical_, examiner_Nm = examiner_Nm_](const Job& job) {
+                     auto ranges = muscleInducedRanges(*model, clinical, job, examiner_Nm);
+                     return [this, model, clinical, ranges = std::move(ranges)] {
+                       if (model != model_) return;
+                       ranges_ = ranges;
+                       ranges_current_ = clinical == clinical_;
+                       emit rangesChanged();
+                     };
+                   });
 }
 
 std::optional<CoordinateRange> Explorer::range(int coordinate) const {

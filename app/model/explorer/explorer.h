@@ -56,8 +56,8 @@ class Explorer : public QObject {
 
   /// Everything at the present posture, kept until it changes.
   const PostureEvaluation& evaluation() const;
-  /// How far an examiner gets with every coordinate, all others held (muscleInducedRange()); computed beside the window, nullopt until known for some posture. They may
-  /// belong to the posture before for the moment it takes.
+  /// How far an examiner gets with every coordinate, all others held (muscleInducedRange()); computed beside the
+  /// window, nullopt until known for some posture. They may belong to the posture before for the moment it takes.
   std::optional<CoordinateRange> range(int coordinate) const;
   bool rangesAreCurrent() const { return ranges_current_; }
 

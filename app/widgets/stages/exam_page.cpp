@@ -321,12 +321,13 @@ void ExamPage::refreshLine(const ClinicalTest& test, char side, Line& line) {
   const ExamEntry* entry = findExamEntry(c, test.id, side);
   const bool measured = entry && entry->measured_deg;
   line.measured->setText(measured ? shortFigure(*entry->measured_deg) : QString{});
-  const bool doubt =
-      measured && (*entry->measured_deg < test.form->doubt_min_deg || *entry->measured_deg > test.form->doubt_max_deg);
+  const bool doubt = measured && (*entry->measured_deg < test.form->doubt_min_deg ||
+                                  *entry->measured_deg > test.form->doubt_max_deg);
   setRole(line.measured, "state", doubt ? "doubt" : "");
   line.measured->setToolTip(
-      doubt ? tr("Unusual: expected %1 to %2").arg(degrees(test.form->doubt_min_deg), degrees(test.form->doubt_max_deg))
-            : QString::fromStdString(test.form->convention));
+      doubt
+          ? tr("Unusual: expected %1 to %2").arg(degrees(test.form->doubt_min_deg), degrees(test.form->doubt_max_deg))
+          : QString::fromStdString(test.form->convention));
   line.stop->setText(entry && entry->threshold_Nm ? shortFigure(*entry->threshold_Nm) : QString{});
   line.stop->setPlaceholderText(figure(usualThreshold(workspace(), c, test), 0));
   line.note->setText(entry ? QString::fromStdString(entry->note) : QString{});

@@ -2,7 +2,7 @@
 #include <QString>
 
 #include "clinical/case/case.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

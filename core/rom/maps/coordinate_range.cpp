@@ -78,10 +78,9 @@ class Sweep {
     };
     const auto before = posesAt(value_rad - kAside_rad), after = posesAt(value_rad + kAside_rad);
     const auto here = posesAt(value_rad);
-    double sum_Nm =
-        model_.passive_moments.empty()
-            ? 0
-            : passiveMoment_Nm(model_.passive_moments[std::size_t(coordinate_)], value_rad);
+    double sum_Nm = model_.passive_moments.empty()
+                        ? 0
+                        : passiveMoment_Nm(model_.passive_moments[std::size_t(coordinate_)], value_rad);
     std::vector<std::pair<double, int>> shares{{sum_Nm, -1}};
     for (const int i : units_) {
       const MusculotendonUnit& unit = model_.musculature.units[std::size_t(i)];
@@ -93,9 +92,8 @@ class Sweep {
     }
     if (std::abs(sum_Nm) < examiner_Nm_) return;
     tightest.by_moment = true;
-    tightest.unit = std::ranges::max_element(shares, {}, [&](const auto& s) {
-                      return sum_Nm > 0 ? s.first : -s.first;
-                    })->second;
+    tightest.unit =
+        std::ranges::max_element(shares, {}, [&](const auto& s) { return sum_Nm > 0 ? s.first : -s.first; })->second;
   }
 
   /// The interval of a coordinate is only the box about an edited range.
@@ -178,8 +176,8 @@ CoordinateRange muscleInducedRange(const Model& model, const Eigen::VectorXd& cl
   return rangeOver({model, clinical, coordinate, std::move(units), examiner_Nm}, c, coordinate, clinical[coordinate]);
 }
 
-std::vector<CoordinateRange> muscleInducedRanges(const Model& model, const Eigen::VectorXd& clinical,
-                                                 const Job& job, const std::vector<double>& examiner_Nm) {
+std::vector<CoordinateRange> muscleInducedRanges(const Model& model, const Eigen::VectorXd& clinical, const Job& job,
+                                                 const std::vector<double>& examiner_Nm) {
   auto units = unitsByCoordinate(model, clinical);
   std::vector<CoordinateRange> ranges;
   for (int i = 0; i < model.skeleton.coordinateCount(); ++i) {

@@ -94,10 +94,9 @@ std::vector<Way> waysOf(const Model& model, const std::vector<RomTarget>& target
     ClinicalSweep sweep{model, test, 'r', 1};
     if (!target.to_stops)
       require(test.reads.size() == 1 && test.moves.size() == 1, "a target angle is for a test of one coordinate");
-    const double to_deg = target.to_stops
-                              ? sweep.end_deg()
-                              : (target.target_deg - test.read_offset_deg) / test.reads.begin()->second /
-                                    test.moves.begin()->second;
+    const double to_deg = target.to_stops ? sweep.end_deg()
+                                          : (target.target_deg - test.read_offset_deg) / test.reads.begin()->second /
+                                                test.moves.begin()->second;
     ways.push_back({&test, std::move(sweep), to_deg});
   }
   return ways;
@@ -156,8 +155,7 @@ PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, cons
     for (Eigen::Index i = 0; i < right.working.lengthened.size(); ++i)
       right.working.lengthened[i] = fit.lengths[std::size_t(i)].scale / of_poses[std::size_t(i)].scale;
   }
-  for (const Way& way : ways)
-    fit.readings.push_back(simulateTest(fit.model, *way.test, 'r', way.test->threshold_Nm));
+  for (const Way& way : ways) fit.readings.push_back(simulateTest(fit.model, *way.test, 'r', way.test->threshold_Nm));
   const auto standing = segmentPoses(skeleton, zeroPosture(skeleton));
   for (std::size_t i = 0; i < fit.lengths.size(); ++i) {
     const MusculotendonUnit& unit = fit.model.musculature.units[i];

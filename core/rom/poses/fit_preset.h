@@ -26,9 +26,9 @@ struct PresetFitOptions {
 
 struct PresetFit {
   std::vector<LengthEstimate> lengths;
-  Model model;                       ///< skeleton with the preset's stops, muscles with these lengths; no bones
+  Model model;                          ///< skeleton with the preset's stops, muscles with these lengths; no bones
   std::vector<SimulatedTest> readings;  ///< of the preset's targets, in their order
-  int rounds = 0;                    ///< over the tests, until nothing needed to be lengthened
+  int rounds = 0;                       ///< over the tests, until nothing needed to be lengthened
 };
 
 /// `published`: muscles with their published fibre and tendon lengths, right half then left half.

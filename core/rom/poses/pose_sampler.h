@@ -5,7 +5,7 @@
 
 #include "core/model/rom_preset.h"
 #include "core/rom/poses/pose_set.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

@@ -14,16 +14,17 @@
 namespace sinew {
 namespace {
 
-constexpr double kStep_deg = 3;     // cubic between samples with slopes: path lengths good to some nm
-constexpr double kStride_deg = 4;   // in which the first place that holds is looked for
-constexpr double kGrid_deg = 1;     // of moments with unchanged lengths: a fibre's force grows e-fold in some 15 deg
+constexpr double kStep_deg = 3;    // cubic between samples with slopes: path lengths good to some nm
+constexpr double kStride_deg = 4;  // in which the first place that holds is looked for
+constexpr double kGrid_deg = 1;    // of moments with unchanged lengths: a fibre's force grows e-fold in some 15 deg
 constexpr double kNearLongest = 0.9;  // of the longest length: below, a unit cannot be beyond it
-constexpr double kLengthGain = 20;  // excess of a unit that is 5 % beyond its longest length: 1, as at twice the moment
+constexpr double kLengthGain =
+    20;  // excess of a unit that is 5 % beyond its longest length: 1, as at twice the moment
 
 struct SweptUnit {
   int index;
-  MusculotendonUnit unit;        ///< without path and names: copied for other lengths
-  std::vector<double> length_m;  ///< by sample
+  MusculotendonUnit unit;                                  ///< without path and names: copied for other lengths
+  std::vector<double> length_m;                            ///< by sample
   std::vector<double> slope_begin_m_deg, slope_end_m_deg;  ///< at both ends of every interval: kinks where one halts
   std::vector<double> moment_Nm;  ///< with unchanged length, on a grid of its own; empty: asked every time
   bool nears_longest = false;     ///< with unchanged length, somewhere in the table
@@ -335,7 +336,8 @@ SimulatedTest ClinicalSweep::simulate(double threshold_Nm, const LengthFactors& 
     result.moment_Nm += moment_Nm;
     const std::string& name = table_->unit_names[std::size_t(u.index)];
     if (moment_Nm > kLeastShare * threshold_Nm) shares.emplace_back(moment_Nm, name);
-    if (table_->lengthAndSlope(u, p).first > longestLength_m(unit) * (1 - 1e-7)) at_longest = name + " (at its longest)";
+    if (table_->lengthAndSlope(u, p).first > longestLength_m(unit) * (1 - 1e-7))
+      at_longest = name + " (at its longest)";
   }
   std::ranges::stable_sort(shares, std::greater<>{}, &std::pair<double, std::string>::first);
   if (shares.size() > 3) shares.resize(3);

@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "core/model/model.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
 // The one simulation of a clinical test: the movement goes on until the passive moment against it - all units that it
 // stretches, and the capsules and ligaments of the joints that it moves - reaches the examiner's threshold, or a unit
 // is at its longest length, or every moving coordinate is at its bony stop. Of several coordinates the moment is the
-// work per degree of the movement. s is the place along the movement in degrees of it, from ClinicalTest::from_deg on.
+// work per degree of the movement. s is the place along the movement in degrees of it, from ClinicalTest::from_deg
+// on.
 
 /// How the lengths of a unit differ from the model's.
 struct LengthFactor {
@@ -25,13 +26,14 @@ using LengthFactors = std::map<int, LengthFactor>;  ///< by unit index; absent =
 /// A test simulated on one side of one body.
 struct SimulatedTest {
   std::string test;
-  double angle_deg = std::numeric_limits<double>::quiet_NaN();    ///< in the signs of the coordinates
-  double written_deg = std::numeric_limits<double>::quiet_NaN();  ///< as the form writes it
-  double moment_Nm = std::numeric_limits<double>::quiet_NaN();    ///< against the movement, where it ended
+  double angle_deg = std::numeric_limits<double>::quiet_NaN();      ///< in the signs of the coordinates
+  double written_deg = std::numeric_limits<double>::quiet_NaN();    ///< as the form writes it
+  double moment_Nm = std::numeric_limits<double>::quiet_NaN();      ///< against the movement, where it ended
   double structures_Nm = std::numeric_limits<double>::quiet_NaN();  ///< share of capsules and ligaments
   bool stopped_by_joint = false;              ///< every moving coordinate at its bony stop before the threshold
   std::vector<std::string> limiting_muscles;  ///< units with the largest shares of the moment, largest first, up to 3
-  /// What holds, in words, largest share first: units, "capsule and ligaments", "... (at its longest)", "stop of ...".
+  /// What holds, in words, largest share first: units, "capsule and ligaments", "... (at its longest)", "stop of
+  /// ...".
   std::vector<std::string> limited_by;
 };
 

@@ -3,7 +3,7 @@
 
 #include "core/file.h"
 #include "core/model/rom_preset.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 #include "core/strict_json.h"
 
 namespace sinew {
@@ -141,7 +141,9 @@ void addTests(const JsonReader& root, const Skeleton* skeleton, ClinicalTests& a
     test.threshold_band_share = band;
     if (test.form)
       for (const auto& group : test.form->groups) all.group(group);  // must exist
-    const auto same = [&](const ClinicalTest& t) { return t.id == test.id || std::ranges::count(t.aliases, test.id); };
+    const auto same = [&](const ClinicalTest& t) {
+      return t.id == test.id || std::ranges::count(t.aliases, test.id);
+    };
     if (std::ranges::any_of(all.tests, same)) json["id"].fail("an id of its own", "'" + test.id + "' twice");
     all.tests.push_back(std::move(test));
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/model/model.h"
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

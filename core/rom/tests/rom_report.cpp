@@ -31,7 +31,8 @@ RomReport romReport(const Model& model, const ClinicalTests& tests, std::string_
   for (const ClinicalTest& test : tests.tests) {
     if (job.cancelled()) return {.outcome = Outcome::Cancelled};
     job.report(double(report.tests.size()) / double(tests.tests.size()), "simulating " + test.title);
-    RomTestLine line{.test = &test, .threshold_Nm = scaledThreshold_Nm(test, mass_kg), .norm = normOf(test.norms, preset)};
+    RomTestLine line{
+        .test = &test, .threshold_Nm = scaledThreshold_Nm(test, mass_kg), .norm = normOf(test.norms, preset)};
     line.reading = simulateTest(model, test, 'r', line.threshold_Nm);
     line.off_deg = off(line.norm, line.reading.angle_deg);
     line.accepted = !line.norm.known() || line.norm.outside_deg(line.reading.angle_deg) < kAccepted_deg;

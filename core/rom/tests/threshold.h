@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 

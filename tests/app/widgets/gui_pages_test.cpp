@@ -195,7 +195,8 @@ TEST_F(PagesTest, EveryFieldOfTheExaminationIsStoredAndReadBack) {
       const ClinicalTest& test = *row;
       const ExamEntry* entry = findExamEntry(stored, test.id, side);
       ASSERT_NE(entry, nullptr) << test.id << side;
-      EXPECT_EQ(entry->measured_deg, std::round((test.form->entry_min_deg + test.form->entry_max_deg) / 2)) << test.id << side;
+      EXPECT_EQ(entry->measured_deg, std::round((test.form->entry_min_deg + test.form->entry_max_deg) / 2))
+          << test.id << side;
       EXPECT_EQ(entry->threshold_Nm, side == 'r' ? 22.5 : 31) << test.id << side;
       EXPECT_EQ(entry->note, "firm " + test.id + '_' + side);
     }

@@ -106,7 +106,8 @@ TEST(ApplyExam, FindsNothingAtTheNorm) {
 
 /// Children of 5, 8 and 12 years: their size, their mass, their norms.
 TEST(ApplyExam, FindsNothingAtTheNormOfAChild) {
-  for (const auto& [age_y, height_ratio, mass_kg] : {std::tuple{5.0, 0.63, 18.5}, {8.0, 0.74, 26.0}, {12.0, 0.87, 41.0}}) {
+  for (const auto& [age_y, height_ratio, mass_kg] :
+       {std::tuple{5.0, 0.63, 18.5}, {8.0, 0.74, 26.0}, {12.0, 0.87, 41.0}}) {
     std::vector<double> values = toVector(ShapeParameters{});
     for (double& v : values)
       if (v == 1) v = height_ratio;  // every ratio alike, no angle
@@ -126,10 +127,12 @@ TEST(ApplyExam, FindsNothingAtTheNormOfAChild) {
 /// More extension than capsule and bone allow says nothing about a short muscle.
 TEST(ApplyExam, BeyondTheJointNothingIsShort) {
   for (const bool leave : {true, false})
-    for (const auto& [test, measured_deg, group] :
-         {std::tuple{"staheli", -19.0, "hip_flexors"}, {"staheli", -30.0, "hip_flexors"},
-          {"silfverskioeld_knee_flexed", 40.0, "soleus"}, {"popliteal_unilateral", 0.0, "hamstrings"},
-          {"duncan_ely", 160.0, "rectus_femoris"}, {"abd_knee_flex", 75.0, "adductors"}}) {
+    for (const auto& [test, measured_deg, group] : {std::tuple{"staheli", -19.0, "hip_flexors"},
+                                                    {"staheli", -30.0, "hip_flexors"},
+                                                    {"silfverskioeld_knee_flexed", 40.0, "soleus"},
+                                                    {"popliteal_unilateral", 0.0, "hamstrings"},
+                                                    {"duncan_ely", 160.0, "rectus_femoris"},
+                                                    {"abd_knee_flex", 75.0, "adductors"}}) {
       PhysicalExam exam{.leave_in_norm = leave};
       exam.entries.push_back({test, 'r', measured_deg});
       const ExamFit fit = examiner().fit(exam);
@@ -182,7 +185,8 @@ TEST(ApplyExam, SaysWhatMuscleLengthsCannotMeetAndKeepsTheOtherSide) {
   const ExamFit fit = examiner().fit(exam);
   double worst_deg = 0;
   for (const auto& line : fit.tests)
-    if (line.side == 'r' && !std::isnan(line.residual_deg)) worst_deg = std::max(worst_deg, std::abs(line.residual_deg));
+    if (line.side == 'r' && !std::isnan(line.residual_deg))
+      worst_deg = std::max(worst_deg, std::abs(line.residual_deg));
   EXPECT_GT(worst_deg, 10);
   EXPECT_THAT(fit.warnings, testing::Contains(testing::Field(&Warning::code, "exam_not_met")));
   EXPECT_THAT(fit.warnings, testing::Contains(testing::Field(&Warning::code, "exam_contradiction")));
@@ -198,9 +202,9 @@ TEST(ApplyExam, NamesEveryContradictionOfTheProtocol) {
     exam.entries.push_back({rule.first, 'l', above ? a.doubt_max_deg : a.doubt_min_deg});
     exam.entries.push_back({rule.second, 'l', above == rule.sum ? b.doubt_max_deg : b.doubt_min_deg});
     const Warnings warnings = checkExam(exam, tests());
-    EXPECT_THAT(warnings, testing::Contains(testing::AllOf(
-                              testing::Field(&Warning::code, "exam_contradiction"),
-                              testing::Field(&Warning::message, testing::HasSubstr(rule.text)))))
+    EXPECT_THAT(warnings,
+                testing::Contains(testing::AllOf(testing::Field(&Warning::code, "exam_contradiction"),
+                                                 testing::Field(&Warning::message, testing::HasSubstr(rule.text)))))
         << rule.first << " " << rule.second;
   }
 }

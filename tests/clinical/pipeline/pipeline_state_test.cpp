@@ -59,7 +59,8 @@ TEST(PipelineState, AMovedSightingMakesEverythingAfterItStale) {
 TEST(PipelineState, EachInputReachesTheStagesThatReadIt) {
   Case c = finishedCase();
   c.exam.examiner += "x";
-  EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
+  EXPECT_THAT(states(c),
+              ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
   c = finishedCase();
   c.patient.diagnosis += "x";
   EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "done", "stale"));
@@ -160,7 +161,8 @@ TEST(PipelineState, AThresholdHalvedInTheTestsReachesEveryStageThatReadsThem) {
   writeFileAtomically(file, text);
   std::vector<std::string> names;
   for (const auto& status : statusOf(c, copy.path())) names.push_back(nameOf(status.state));
-  EXPECT_THAT(names, ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
+  EXPECT_THAT(names,
+              ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
 }
 
 TEST(ResourceHash, OfAFolderFollowsNamesAndContents) {

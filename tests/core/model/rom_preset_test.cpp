@@ -176,26 +176,31 @@ TEST(AverageAdult, StraightLegRaiseIsLessThanWithABentKnee) {
 
 TEST(AverageAdult, KneeExtensionEndsAtTheJointAndNotAtMuscles) {
   const Shipped& s = shipped("average-adult");
-  EXPECT_TRUE(simulateTest(s.model, s.norms.test("knee_ext"), 'r', s.norms.test("knee_ext").threshold_Nm).stopped_by_joint);
-  EXPECT_TRUE(simulateTest(s.model, s.norms.test("elb_ext"), 'r', s.norms.test("elb_ext").threshold_Nm).stopped_by_joint);
+  EXPECT_TRUE(
+      simulateTest(s.model, s.norms.test("knee_ext"), 'r', s.norms.test("knee_ext").threshold_Nm).stopped_by_joint);
+  EXPECT_TRUE(
+      simulateTest(s.model, s.norms.test("elb_ext"), 'r', s.norms.test("elb_ext").threshold_Nm).stopped_by_joint);
 }
 
 TEST(SimulatedTest, EndsAtTheThresholdAndIsTheSameOnBothSides) {
   const Shipped& s = shipped("average-adult");
   const ClinicalTest& test = s.norms.test("popliteal_adult");
-  const SimulatedTest right = simulateTest(s.model, test, 'r', test.threshold_Nm), left = simulateTest(s.model, test, 'l', test.threshold_Nm);
+  const SimulatedTest right = simulateTest(s.model, test, 'r', test.threshold_Nm),
+                      left = simulateTest(s.model, test, 'l', test.threshold_Nm);
   EXPECT_NEAR(right.moment_Nm, test.threshold_Nm, 0.1);
   EXPECT_NEAR(right.angle_deg, left.angle_deg, 0.01);
   ClinicalTest weaker = test;
   weaker.threshold_Nm = 20;
-  EXPECT_GT(simulateTest(s.model, weaker, 'r', weaker.threshold_Nm).angle_deg, right.angle_deg + 1);  // felt earlier: more lack of extension
+  EXPECT_GT(simulateTest(s.model, weaker, 'r', weaker.threshold_Nm).angle_deg,
+            right.angle_deg + 1);  // felt earlier: more lack of extension
 }
 
 TEST(SimulatedTest, MovesSeveralCoordinatesToTheirStops) {
   const Shipped& s = shipped("average-adult");
   Model limp = s.model;  // no muscle holds: only stops are left
   for (auto& unit : limp.musculature.units) unit.optimal_fiber_length_m *= 10;
-  const SimulatedTest reading = simulateTest(limp, s.norms.test("neck_flex"), 'r', s.norms.test("neck_flex").threshold_Nm);
+  const SimulatedTest reading =
+      simulateTest(limp, s.norms.test("neck_flex"), 'r', s.norms.test("neck_flex").threshold_Nm);
   EXPECT_TRUE(reading.stopped_by_joint);
   const auto stop_deg = [&](const char* name) {
     return limp.skeleton.coordinates[limp.skeleton.coordinateIndex(name)].stop_max_rad * 180 / 3.14159265358979323846;

@@ -26,7 +26,8 @@ const ClinicalTests& tests() {
 }
 
 /// Moment of muscles and structures about one coordinate, by the code that the window and `sinew evaluate` use.
-double passiveTorque_Nm(const Model& model, const std::map<std::string, double>& posture_deg, const char* coordinate) {
+double passiveTorque_Nm(const Model& model, const std::map<std::string, double>& posture_deg,
+                        const char* coordinate) {
   const Posture q = postureFromDegrees(model.skeleton, posture_deg);
   return evaluatePosture(model.skeleton, model.musculature, q, model.passive_moments)
       .passive_torque[model.skeleton.coordinateIndex(coordinate)];
@@ -35,17 +36,18 @@ double passiveTorque_Nm(const Model& model, const std::map<std::string, double>&
 TEST(ClinicalSweep, ResistanceIsTheTorqueOfEvaluate) {
   const ClinicalSweep popliteal{reference(), tests().test("popliteal_unilateral"), 'r'};
   for (const double knee_deg : {80.0, 41.3, 30.0, 12.7})
-    EXPECT_NEAR(popliteal.resistance_Nm(knee_deg),
-                passiveTorque_Nm(reference(), {{"hip_flexion_r", 90}, {"knee_flexion_r", knee_deg}}, "knee_flexion_r"),
-                1e-3)  // the table's interpolation
+    EXPECT_NEAR(
+        popliteal.resistance_Nm(knee_deg),
+        passiveTorque_Nm(reference(), {{"hip_flexion_r", 90}, {"knee_flexion_r", knee_deg}}, "knee_flexion_r"),
+        1e-3)  // the table's interpolation
         << knee_deg;
   const ClinicalSweep extension{reference(), tests().test("staheli"), 'l'};
   for (const double hip_deg : {30.0, 3.1, -8.4})
-    EXPECT_NEAR(extension.resistance_Nm(hip_deg),
-                passiveTorque_Nm(reference(),
-                                 {{"hip_flexion_l", hip_deg}, {"ankle_dorsiflexion_l", 0}, {"hip_flexion_r", 0}},
-                                 "hip_flexion_l"),
-                1e-3)
+    EXPECT_NEAR(
+        extension.resistance_Nm(hip_deg),
+        passiveTorque_Nm(reference(), {{"hip_flexion_l", hip_deg}, {"ankle_dorsiflexion_l", 0}, {"hip_flexion_r", 0}},
+                         "hip_flexion_l"),
+        1e-3)
         << hip_deg;
 }
 

@@ -59,10 +59,10 @@ struct ClinicalTest {
   std::map<std::string, double> moves;
   std::map<std::string, double> reads;  ///< angle = offset + sum of factor * coordinate
   double read_offset_deg = 0;
-  double from_deg = 0, to_deg = 0;   ///< of the movement; to_deg where nobody goes
-  double threshold_Nm = 0;           ///< moment against the movement at which the examiner stops, for `threshold_mass_kg`
-  double threshold_mass_kg = 0;      ///< see scaledThreshold_Nm()
-  double threshold_band_share = 0;   ///< 95 % of examiners stop within threshold * (1 -+ this)
+  double from_deg = 0, to_deg = 0;  ///< of the movement; to_deg where nobody goes
+  double threshold_Nm = 0;       ///< moment against the movement at which the examiner stops, for `threshold_mass_kg`
+  double threshold_mass_kg = 0;  ///< see scaledThreshold_Nm()
+  double threshold_band_share = 0;                     ///< 95 % of examiners stop within threshold * (1 -+ this)
   std::map<std::string, TestNorm, std::less<>> norms;  ///< by preset
   std::vector<AgeNorm> norms_by_age;
   std::string limited_by;  ///< structures that are expected to hold
@@ -111,9 +111,9 @@ struct ClinicalTests {
   std::vector<TestCoupling> couplings;
   std::vector<TestContradiction> contradictions;
   std::vector<TestNotAsked> not_asked;
-  std::string thresholds;          ///< what the thresholds rest on
-  double reference_mass_kg = 0;    ///< body that the thresholds are stated for
-  double length_sd_m = 0;          ///< of a muscle's path, from the error of the bones
+  std::string thresholds;        ///< what the thresholds rest on
+  double reference_mass_kg = 0;  ///< body that the thresholds are stated for
+  double length_sd_m = 0;        ///< of a muscle's path, from the error of the bones
   std::string length_sd_source;
 
   const ClinicalTest& test(std::string_view id) const;    ///< by id or alias. @throws InputError with the nearest ids

@@ -1,12 +1,12 @@
-#include "core/rom/tests/clinical_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/model/rom_preset.h"
-#include "core/skeleton/clinical_angles.h"
 #include "core/rom/tests/threshold.h"
+#include "core/skeleton/clinical_angles.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -36,7 +36,8 @@ const ClinicalTest& ClinicalTests::test(std::string_view id) const {
     if (t.id == id || std::ranges::count(t.aliases, id) > 0) return t;
     known.push_back(t.id);
   }
-  throw InputError{{"clinical_tests.json", "test", "a known test", "'" + std::string{id} + "'" + didYouMean(id, known)}};
+  throw InputError{
+      {"clinical_tests.json", "test", "a known test", "'" + std::string{id} + "'" + didYouMean(id, known)}};
 }
 
 const LengthGroup& ClinicalTests::group(std::string_view name) const {
