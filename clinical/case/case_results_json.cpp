@@ -116,6 +116,23 @@ Triangulation triangulationFromJson(const JsonReader& json) {
   return landmarks;
 }
 
+Json exchangesToJson(const std::vector<SideExchange>& exchanges) {
+  Json list = Json::array();
+  for (const auto& e : exchanges)
+    list.push_back({{"view", e.view + 1}, {"landmarks", e.landmarks}, {"whole", e.whole}});
+  return list;
+}
+
+std::vector<SideExchange> exchangesFromJson(const JsonReader& json) {
+  std::vector<SideExchange> exchanges;
+  for (const auto& e : json.items()) {
+    e.allowOnly({"view", "landmarks", "whole"});
+    exchanges.push_back({viewFromJson(e["view"]), {}, e["whole"].boolean()});
+    for (const auto& name : e["landmarks"].items()) exchanges.back().landmarks.push_back(name.text());
+  }
+  return exchanges;
+}
+
 Json skeletonFitToJson(const SkeletonFit& fit) {
   Json residuals = Json::array();
   for (const auto& r : fit.residuals)

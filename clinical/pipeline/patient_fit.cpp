@@ -1,7 +1,5 @@
 #include "clinical/pipeline/patient_fit.h"
 
-#include <algorithm>
-
 #include "core/skeleton/fit/landmark_protocol.h"
 #include "imaging/rig/rig_uncertainty.h"
 
@@ -14,11 +12,6 @@ FitOptions optionsFrom(const std::filesystem::path& resource_dir) {
   return options;
 }
 
-bool isKnown(const Skeleton& reference, const Sighting& sighting) {
-  const auto landmark = std::ranges::find(reference.landmarks, sighting.name, &Landmark::name);
-  return landmark != reference.landmarks.end() && landmark->segment < reference.movingSegmentCount();
-}
-
 }  // namespace
 
 std::vector<FitView> fitViewsOf(const BiplanarRig& rig) {
@@ -27,45 +20,12 @@ std::vector<FitView> fitViewsOf(const BiplanarRig& rig) {
   return views;
 }
 
-std::vector<LandmarkObservation> observationsOf(std::span<const Sighting> sightings) {
-  std::vector<LandmarkObservation> list;
-  for (const auto& s : sightings) list.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-  return list;
-}
-
 SkeletonFit fitPatient(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
                        const std::filesystem::path& resource_dir, const Job& job) {
-  return fitSkeleton(reference, fitViewsOf(rig), observationsOf(sightings), loadShapePriors(resource_dir),
+  std::vector<LandmarkObservation> observations;
+  for (const auto& s : sightings) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
+  return fitSkeleton(reference, fitViewsOf(rig), observations, loadShapePriors(resource_dir),
                      optionsFrom(resource_dir), job);
-}
-
-ExchangeFinding examineSides(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
-                             const std::filesystem::path& resource_dir, const Job& job) {
-  std::vector<Sighting> known;
-  std::ranges::copy_if(sightings, std::back_inserter(known), [&](auto& s) { return isKnown(reference, s); });
-  if (known.empty()) return {};
-  ExchangeOptions options;
-  if (rig.patient_aligned) options.anterior_W = Eigen::Vector3d::UnitX();
-  return findExchangedSides(reference, fitViewsOf(rig), observationsOf(known), loadShapePriors(resource_dir),
-                            optionsFrom(resource_dir), options, job);
-}
-
-Warnings warningsOf(const ExchangeFinding& finding) {
-  if (finding.exchanges.empty()) return {};
-  return {{std::string{kSidesExchanged},
-           "left and right are exchanged: " + finding.what +
-               ". The picks fit far better with the names of the other side; exchange them (--swap, or the button on "
-               "the landmarks page), or check the side markers"}};
-}
-
-bool disagreeGrossly(const SkeletonFit& fit, std::span<const SideExchange> whole_exchanges) {
-  return !whole_exchanges.empty() ||
-         std::ranges::any_of(fit.warnings, [](const Warning& w) { return w.code == "picks_disagree"; });
-}
-
-void applyExchange(std::vector<Sighting>& sightings, std::span<const SideExchange> exchanges) {
-  for (auto& s : sightings)
-    if (isExchanged(exchanges, s.name, s.view)) s.name = withOtherSide(s.name);
 }
 
 }  // namespace sinew

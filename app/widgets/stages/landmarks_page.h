@@ -45,10 +45,12 @@ class LandmarksPage : public StagePage {
   };
   void connectPane(RadiographPane& pane);
   void buildList(QWidget& side);
+  QWidget* makeExchangeFrame();
   void refreshNames();
   void refreshFindings();
   void refreshMarks();
   void refreshCard();
+  void refreshExchange();
   void filterRows();
   void step(int direction);
   void removeSelected(bool all_views);
@@ -66,6 +68,8 @@ class LandmarksPage : public StagePage {
   QLineEdit* search_;
   QLabel *progress_, *card_title_, *card_text_, *rms_;
   QPushButton* remove_;
+  QWidget* exchange_frame_;  ///< shown while left and right are found exchanged
+  QLabel* exchange_text_;
   int last_view_ = 0;  ///< the one that was used last: Delete works there
 };
 
