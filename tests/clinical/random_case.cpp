@@ -72,7 +72,8 @@ std::map<std::string, double> RandomCase::factors() {
 std::vector<BoneFigure> RandomCase::figures() {
   std::vector<BoneFigure> list;
   for (int i = below(4); i > 0; --i)
-    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin()});
+    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin(),
+                    coin(), numberOrNaN(), numberOrNaN(), numberOrNaN()});
   return list;
 }
 
@@ -101,6 +102,9 @@ SkeletonFit RandomCase::skeletonFit() {
   fit.rms_px = numberOrNaN();
   fit.figures = figures();
   if (coin()) fit.undetermined = {"pelvis.depth", text()};
+  if (coin())
+    fit.outside = {{"femur_r", number(1, 9), text(), number(0, 30)}, {"pelvis", number(1, 2), "asis_l", 3.5}};
+  if (coin()) fit.advice = {{"pelvic_tilt", "", {"sacral_endplate_center", text()}, coin()}, {"hka", "l", {}, false}};
   fit.warnings = warnings();
   return fit;
 }
