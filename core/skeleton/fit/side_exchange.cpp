@@ -61,6 +61,10 @@ class ExchangeSearch {
     Trial best = ofLeastCost(scaleOf(*std::ranges::min_element(ends, {}, &ExchangeSearch::scaleOf)));
     for (int round = 0; round < kRounds && !isClean(best) && !job_.cancelled(); ++round) {
       Trial other = improved(bestMove(best));
+      if (round == 0) {  // what the starts exchanged on their way may be wrong itself
+        Trial fresh = improved(bestMove(as_named));
+        if (costOf(fresh, scaleOf(best)) < costOf(other, scaleOf(best))) other = std::move(fresh);
+      }
       if (costOf(other, scaleOf(best)) > costOf(best, scaleOf(best)) - kWorthAMove) break;
       best = std::move(other);
     }
