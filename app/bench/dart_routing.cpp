@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/muscle/muscle_path.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 

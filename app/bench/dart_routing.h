@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "app/bench/dart_peer.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// Routing as it is programmed on top of a physics engine: the paper's energy (E_direction + w_l E_length) of one
 /// unit, minimised by gradient descent with finite differences and a growing line search. Kinematics by DART, which

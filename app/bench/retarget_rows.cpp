@@ -8,6 +8,8 @@
 #include "app/bench/dart_routing.h"
 #include "app/experiments/characters.h"
 #include "app/experiments/experiment_shapes.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

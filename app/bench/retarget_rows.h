@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "app/bench/bench_rows.h"
-#include "core/retarget/retarget.h"
+#include "core/retarget/routing/routing.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// Rows 7, 8 and the retargeting of row 14. All processors work; CPU times are those of all threads together.
 class RetargetRows {

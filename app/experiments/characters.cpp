@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "core/posture/validity.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/rom/poses/pose_sampler.h"
 
 namespace sinew {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "app/experiments/experiment_shapes.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

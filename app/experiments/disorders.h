@@ -3,9 +3,11 @@
 #include <vector>
 
 #include "core/job.h"
-#include "core/retarget/retarget.h"
+#include "core/retarget/prepared/routing_reference.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 // Ryu et al., Muscle Routing Evaluation: functional disorders, the reversed steps (core/retarget/reversals.h) of
 // every unit's length-angle curves over the motions that it is significant in (RoutingReference).

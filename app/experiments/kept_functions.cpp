@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/muscle/muscle_path.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

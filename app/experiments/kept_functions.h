@@ -2,9 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "core/retarget/retarget.h"
+#include "core/model/model.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 // Whether muscles still do in a new body what they do in the reference, whose own functions are what is asked for.
 

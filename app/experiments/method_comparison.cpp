@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/experiments/disorders.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

@@ -5,9 +5,10 @@
 #include "app/experiments/characters.h"
 #include "app/experiments/kept_functions.h"
 #include "core/job.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 // The methods `sinew` and `paper` (gradient descent by finite differences with line search) on the same bodies, in
 // one run: energies of every unit and times.

@@ -6,6 +6,8 @@
 
 #include "app/experiments/characters.h"
 #include "core/retarget/peaks/ratio_force_internal.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 

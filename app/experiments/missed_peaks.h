@@ -3,9 +3,12 @@
 #include <vector>
 
 #include "core/retarget/peaks/peak_reach.h"
-#include "core/retarget/retarget.h"
+#include "core/retarget/peaks/peak_torque.h"
 
 namespace sinew {
+
+class RetargetReference;
+struct Retargeted;
 
 /// A motion whose angle of peak torque is not within the target.
 struct MissedPeak {

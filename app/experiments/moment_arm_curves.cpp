@@ -4,6 +4,7 @@
 
 #include "core/muscle/unit_selection.h"
 #include "core/posture/evaluate.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "app/experiments/characters.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 // Ryu et al., Moment Arm: how the moment arms of a muscle change with the body.
 

@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "app/experiments/experiment_shapes.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {

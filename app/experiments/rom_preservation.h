@@ -3,10 +3,11 @@
 #include <vector>
 
 #include "core/job.h"
-#include "core/retarget/retarget.h"
 #include "core/rom/maps/rom_map.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 // Ryu et al., ROM Construction: the range of motion of the hip in bodies with longer or shorter, twisted femora, with
 // muscles scaled linearly and retargeted. An error is the number of cells of the 18 x 36 x 36 map that differ from

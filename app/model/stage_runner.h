@@ -4,9 +4,10 @@
 #include "app/model/case_document.h"
 #include "app/model/job_runner.h"
 #include "clinical/pipeline/run_case.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// What the window supplies for running stages. `reference` and `retargeting` are called on the worker thread and may
 /// read files.

@@ -1,6 +1,7 @@
 #include "app/model/workspace.h"
 
 #include "clinical/synthetic/synthetic_case.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

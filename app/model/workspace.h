@@ -10,10 +10,11 @@
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
 #include "clinical/report/norms.h"
-#include "core/retarget/retarget.h"
 #include "core/rom/tests/exam_test.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// Everything the panels of a window share.
 class Workspace : public QObject {

@@ -10,6 +10,7 @@
 #include "app/scene/rom_sphere.h"
 #include "core/model/physical_scaling.h"
 #include "core/posture/evaluate.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/retarget/retarget.h"
 #include "core/rom/maps/rom_map.h"
 #include "core/skeleton/clinical_angles.h"

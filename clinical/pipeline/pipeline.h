@@ -8,9 +8,10 @@
 
 #include "clinical/case/case.h"
 #include "core/model/model.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// What the stages need beside the case: nothing global.
 struct PipelineContext {

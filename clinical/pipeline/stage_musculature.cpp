@@ -8,6 +8,8 @@
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {

@@ -7,6 +7,7 @@
 #include "clinical/synthetic/synthetic_exam.h"
 #include "clinical/synthetic/synthetic_patient.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/skeleton/shape/bone_field.h"
 
 namespace sinew {

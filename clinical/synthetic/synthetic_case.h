@@ -7,10 +7,11 @@
 #include "clinical/synthetic/synthetic_rig.h"
 #include "core/job.h"
 #include "core/model/model.h"
-#include "core/retarget/retarget.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 struct SyntheticOptions {
   std::filesystem::path resource_dir;  ///< priors, landmark protocol, examination tests

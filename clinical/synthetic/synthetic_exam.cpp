@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/random_source.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "imaging/radiograph/dicom_internal.h"
 #include "imaging/radiograph/radiograph_internal.h"
-#include "imaging/rig/biplanar_rig.h"
 
 namespace sinew::dicom {
 namespace {

@@ -5,7 +5,6 @@
 #include "imaging/radiograph/dicom_internal.h"
 #include "imaging/radiograph/pixel_spacing.h"
 #include "imaging/radiograph/radiograph_internal.h"
-#include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
 namespace {

@@ -10,6 +10,9 @@
 
 namespace sinew {
 
+/// Largest side of an image that any part accepts.
+inline constexpr int kMaxImageSide_px = 20000;
+
 /// Where the millimetres of a pixel come from; rule: fiducial > geometry > user's ball > imager/ERMF or
 /// imager * SOD / SID > none.
 enum class PixelScaleSource { None, Fiducial, Geometry, Declared, ImagerMagnified, ImagerAtDetector };

@@ -32,9 +32,6 @@ struct BiplanarRig {
   friend bool operator==(const BiplanarRig&, const BiplanarRig&) = default;
 };
 
-/// Largest side of an image that any part accepts.
-inline constexpr int kMaxImageSide_px = 20000;
-
 /// Short hash of the geometry alone: the calibration id of the report.
 std::string geometryId(const std::array<View, 2>& views);
 

@@ -7,6 +7,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "imaging/radiograph/radiograph.h"
 #include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {

@@ -1,14 +1,17 @@
-# Dependencies point one way. Each row: folder | what its files must not include | files that may, for a stated reason.
+# Dependencies point one way: layers.txt has the order of our own rooms. Each row here: folder | what its files must
+# not include besides.
 set(rules
-  "core|\"(imaging|clinical|app)/|<(Q[A-Z]|vtk|opencv2|dcmtk)"
-  "imaging|\"(clinical|app)/|<(Q[A-Z]|vtk)"
-  "clinical|\"app/|<(Q[A-Z]|vtk|opencv2|dcmtk)"
-  "app/model|\"app/(scene|widgets|cli|report)/|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)"
-  "app/mesh|\"app/(model|scene|widgets|cli|report)/|<(Q[A-Z]|opencv2|dcmtk)"
-  "app/scene|\"app/(model|widgets|cli|report)/|<(Q[A-Z]|opencv2|dcmtk)"
-  "app/report|\"app/(widgets|cli)/|<(QWidget|QtWidgets|opencv2|dcmtk)"
-  "app/widgets|\"app/cli/|<(opencv2|dcmtk)"
-  "app/cli|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)")
+  "core|<(Q[A-Z]|vtk|opencv2|dcmtk)"
+  "imaging|<(Q[A-Z]|vtk)"
+  "clinical|<(Q[A-Z]|vtk|opencv2|dcmtk)"
+  "app/model|\"app/scene/|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)"
+  "app/mesh|\"app/scene/|<(Q[A-Z]|opencv2|dcmtk)"
+  "app/scene|<(Q[A-Z]|opencv2|dcmtk)"
+  "app/plot|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)"
+  "app/report|<(QWidget|QtWidgets|opencv2|dcmtk)"
+  "app/experiments|\"app/(plot|scene)/|<(Q[A-Z]|vtk|opencv2|dcmtk)"
+  "app/widgets|<(opencv2|dcmtk)"
+  "app/cli|\"app/(model|widgets)/|<(QWidget|QtWidgets|vtk|opencv2|dcmtk)")
 # Public headers show std and Eigen only; what a solver or a file needs stays in .cpp and *_residuals.h, *_json.h.
 set(hidden "<(ceres|nlohmann|opencv2|dcmtk|openssl|pugixml)")
 
@@ -34,6 +37,25 @@ foreach(file ${headers})
       string(APPEND bad "${file}: ${hits}\n")
     endif()
   endif()
+endforeach()
+# Every room may use what lies below it.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/layers.txt rooms REGEX "^[^#]")
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.h ${ROOT}/core/*.cpp ${ROOT}/imaging/*.h ${ROOT}/imaging/*.cpp
+     ${ROOT}/clinical/*.h ${ROOT}/clinical/*.cpp ${ROOT}/app/*.h ${ROOT}/app/*.cpp)
+foreach(file ${sources})
+  get_filename_component(room ${file} DIRECTORY)
+  list(FIND rooms "${room}" own)
+  if(own EQUAL -1)
+    string(APPEND bad "${file}: its room ${room} is not in layers.txt\n")
+  endif()
+  file(STRINGS ${ROOT}/${file} lines REGEX "^ *#include *\"")
+  foreach(line ${lines})
+    string(REGEX REPLACE "^ *#include *\"([^\"]*)/[^/\"]*\".*" "\\1" used "${line}")
+    list(FIND rooms "${used}" below)
+    if(below EQUAL -1 OR below GREATER own)
+      string(APPEND bad "${file}: ${line}\n")
+    endif()
+  endforeach()
 endforeach()
 if(bad)
   message(FATAL_ERROR "Includes against the direction of the house:\n${bad}")

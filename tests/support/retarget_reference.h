@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "core/retarget/retarget.h"
+#include "core/retarget/prepared/reference.h"
 #include "tests/support/resources.h"
 
 namespace sinew::test {

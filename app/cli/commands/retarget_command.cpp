@@ -8,6 +8,8 @@
 #include "app/cli/support/retarget_reference.h"
 #include "app/cli/support/text_table.h"
 #include "app/experiments/characters.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/skeleton/shape/shape_json.h"
 
 namespace sinew {

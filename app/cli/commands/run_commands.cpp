@@ -6,6 +6,7 @@
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/text.h"
 
 namespace sinew {

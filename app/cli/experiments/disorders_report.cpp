@@ -6,6 +6,7 @@
 #include "app/experiments/disorders.h"
 #include "app/plot/svg_charts.h"
 #include "app/plot/svg_plot.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -5,6 +5,7 @@
 #include "app/experiments/experiment_shapes.h"
 #include "app/experiments/method_comparison.h"
 #include "app/plot/svg_charts.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "app/cli/support/retarget_reference.h"
 #include "app/cli/support/text_table.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 

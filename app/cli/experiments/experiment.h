@@ -7,10 +7,11 @@
 
 #include "app/cli/support/session.h"
 #include "app/experiments/characters.h"
-#include "core/retarget/retarget.h"
 #include "core/strict_json.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// A figure that an experiment is held to, beside the paper's.
 struct Verdict {

@@ -2,6 +2,8 @@
 #include "app/cli/support/text_table.h"
 #include "app/experiments/moment_arm_curves.h"
 #include "app/plot/svg_plot.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

@@ -7,6 +7,7 @@
 #include "app/experiments/experiment_shapes.h"
 #include "app/experiments/missed_peaks.h"
 #include "app/plot/svg_charts.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -3,6 +3,7 @@
 #include "app/experiments/pose_dependence.h"
 #include "app/plot/svg_charts.h"
 #include "app/scene/rom_sphere.h"
+#include "core/retarget/prepared/reference.h"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include "app/cli/support/text_table.h"
 #include "app/experiments/rom_preservation.h"
 #include "app/plot/svg_charts.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

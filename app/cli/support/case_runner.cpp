@@ -6,6 +6,7 @@
 #include "clinical/case/case_io.h"
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/synthetic/synthetic_case.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

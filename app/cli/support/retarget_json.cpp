@@ -1,4 +1,5 @@
 #include "app/cli/support/retarget_json.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

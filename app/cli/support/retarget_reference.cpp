@@ -1,4 +1,5 @@
 #include "app/cli/support/retarget_reference.h"
+#include "core/retarget/prepared/reference.h"
 
 #include <unistd.h>
 

@@ -3,9 +3,10 @@
 #include <string>
 
 #include "app/cli/support/session.h"
-#include "core/retarget/retarget.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// The prepared reference of a preset ("reference", "reference:athlete"). Preparing it cannot be stopped half way,
 /// but nothing is open or written meanwhile: Ctrl-C ends the program there and then, with `cancelled` as its result.

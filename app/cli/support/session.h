@@ -11,10 +11,11 @@
 #include "clinical/case/case.h"
 #include "core/foreign/foreign_model.h"
 #include "core/model/model.h"
-#include "core/retarget/retarget.h"
 #include "core/strict_json.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// Draws the report of a case; supplied by the application.
 using ReportWriter =

@@ -4,6 +4,7 @@
 
 #include "app/cli/support/session.h"
 #include "core/io/foreign/foreign_json.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 

@@ -5,6 +5,8 @@
 
 #include "core/error.h"
 #include "core/model/physical_scaling.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

@@ -9,10 +9,11 @@
 #include "app/model/retarget/live_body.h"
 #include "app/model/retarget/muscle_change.h"
 #include "app/model/retarget/retarget_design.h"
-#include "core/retarget/retarget.h"
 #include "core/rom/edit/rom_edit_solve.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// A designed body after everything is computed. Constant once made.
 struct SolvedBody {

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/model/physical_scaling.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 

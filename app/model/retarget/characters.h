@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "app/model/explorer/latest_job.h"
-#include "core/retarget/retarget.h"
+#include "core/model/model.h"
 
 namespace sinew {
+
+class RetargetReference;
 
 /// One body of the line-up.
 struct Character {

@@ -6,7 +6,9 @@
 #include <span>
 
 #include "core/muscle/muscle_path.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/retarget/prepared/reversals.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

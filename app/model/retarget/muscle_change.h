@@ -2,9 +2,13 @@
 #include <string>
 #include <vector>
 
-#include "core/retarget/retarget.h"
+#include "core/model/model.h"
+#include "core/retarget/prepared/routing_reference.h"
 
 namespace sinew {
+
+class RetargetReference;
+struct Retargeted;
 
 /// How the function of one unit changed in a new body: what the inspector lists.
 struct MuscleChange {

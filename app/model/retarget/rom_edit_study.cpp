@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/retarget/prepared/reference.h"
 #include "core/rom/edit/rom_edit_target.h"
 
 namespace sinew {

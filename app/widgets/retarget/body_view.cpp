@@ -12,6 +12,8 @@
 #include "app/widgets/retarget/change_inspector.h"
 #include "app/widgets/retarget/family_curves.h"
 #include "app/widgets/views/model_view.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 namespace {

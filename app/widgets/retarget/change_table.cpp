@@ -5,6 +5,7 @@
 
 #include "app/model/stage_text.h"
 #include "app/widgets/controls/theme.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 QString energyText(double energy) {

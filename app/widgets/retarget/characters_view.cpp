@@ -12,6 +12,7 @@
 #include "app/model/stage_text.h"
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

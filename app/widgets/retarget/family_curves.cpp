@@ -13,6 +13,7 @@
 #include "app/widgets/controls/theme.h"
 #include "core/posture/evaluate.h"
 #include "core/posture/muscle_role.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/skeleton/motion_words.h"
 
 namespace sinew {

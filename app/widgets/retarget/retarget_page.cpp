@@ -24,6 +24,7 @@
 #include "app/widgets/retarget/rom_edit_view.h"
 #include "app/widgets/retarget/shape_panel.h"
 #include "app/widgets/retarget/solver_state.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "app/model/stage_text.h"
 #include "app/widgets/controls/controls.h"
+#include "core/retarget/retarget.h"
 
 namespace sinew {
 

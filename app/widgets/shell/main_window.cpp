@@ -25,6 +25,7 @@
 #include "app/widgets/stages/landmarks_page.h"
 #include "app/widgets/stages/musculature_page.h"
 #include "app/widgets/stages/skeleton_page.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 

@@ -9,6 +9,7 @@
 #include "app/model/workspace.h"
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
+#include "core/retarget/prepared/reference.h"
 
 namespace sinew {
 namespace {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
-#include "core/parallel.h"
-#include "core/retarget/retarget.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/rom/poses/length_estimation.h"
+#include "core/rom/poses/longest_paths.h"
 #include "core/rom/poses/pose_sampler.h"
 
 namespace sinew {
@@ -98,24 +97,6 @@ LongestLengths boundsOf(const RetargetReference& reference, Model& model, Maxima
 }
 
 }  // namespace
-
-std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature& musculature, const PoseSet& poses,
-                                     const Job& job) {
-  const CompiledModel model{skeleton, musculature};
-  constexpr std::size_t kPart = 1152 * PoseTable::kBlock;  // few: each asks the longest of every unit again in double
-  const std::size_t parts = (poses.size() + kPart - 1) / kPart;
-  std::vector<PostureSweep> sweeps(parts);
-  const bool done = forEachInParallel(parts, job, "longest paths", [&](std::size_t part) {
-    const std::size_t offset = part * kPart;
-    const auto read = [&](std::size_t first, PoseTable& table) { poses.read(offset + first, table); };
-    sweeps[part] = sweepPostures(model, std::min(kPart, poses.size() - offset), read, Precision::Single);
-  });
-  if (!done) return {};
-  std::vector<double> longest_m(musculature.units.size(), 0.0);
-  for (const PostureSweep& sweep : sweeps)
-    for (std::size_t u = 0; u < longest_m.size(); ++u) longest_m[u] = std::max(longest_m[u], sweep.longest_m[u]);
-  return longest_m;
-}
 
 MaximalLengths setMaximalLengths(const RetargetReference& reference, Model& model, const Job& job,
                                  const PreviousLengths* previous) {

@@ -5,7 +5,6 @@
 #include "core/job.h"
 #include "core/model/model.h"
 #include "core/retarget/lengths/range_fit.h"
-#include "core/rom/poses/pose_set.h"
 
 namespace sinew {
 
@@ -16,10 +15,6 @@ class RetargetReference;
 // clinical tests, an examination - lengthens it here by the same share. From there all longest lengths are fitted to
 // the ranges of motion of the reference (range_fit.h), none below its longest path: every posture of the set stays
 // valid.
-
-/// Longest path of every unit over a pose set [m]. Two threads and more; empty if the job was cancelled.
-std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature& musculature, const PoseSet& poses,
-                                     const Job& job = {});
 
 struct MaximalLengths {
   Outcome outcome = Outcome::NotRun;

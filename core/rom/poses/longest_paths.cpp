@@ -1,8 +1,11 @@
 #include "core/rom/poses/longest_paths.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/kernel/batch.h"
+#include "core/kernel/sweep.h"
+#include "core/parallel.h"
 
 namespace sinew {
 
@@ -23,6 +26,24 @@ PathLimits longestPaths(const Skeleton& skeleton, const Musculature& musculature
     }
   });
   return limits;
+}
+
+std::vector<double> longestOverPoses(const Skeleton& skeleton, const Musculature& musculature, const PoseSet& poses,
+                                     const Job& job) {
+  const CompiledModel model{skeleton, musculature};
+  constexpr std::size_t kPart = 1152 * PoseTable::kBlock;  // few: each asks the longest of every unit again in double
+  const std::size_t parts = (poses.size() + kPart - 1) / kPart;
+  std::vector<PostureSweep> sweeps(parts);
+  const bool done = forEachInParallel(parts, job, "longest paths", [&](std::size_t part) {
+    const std::size_t offset = part * kPart;
+    const auto read = [&](std::size_t first, PoseTable& table) { poses.read(offset + first, table); };
+    sweeps[part] = sweepPostures(model, std::min(kPart, poses.size() - offset), read, Precision::Single);
+  });
+  if (!done) return {};
+  std::vector<double> longest_m(musculature.units.size(), 0.0);
+  for (const PostureSweep& sweep : sweeps)
+    for (std::size_t u = 0; u < longest_m.size(); ++u) longest_m[u] = std::max(longest_m[u], sweep.longest_m[u]);
+  return longest_m;
 }
 
 }  // namespace sinew

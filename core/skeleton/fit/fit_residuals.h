@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/geometry/view.h"
 #include "core/skeleton/shape/body_parameters_internal.h"
 
 namespace sinew {

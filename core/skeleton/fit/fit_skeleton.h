@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/job.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/shape.h"
+#include "core/skeleton/shape/shape_priors.h"
 
 namespace sinew {
 
@@ -21,15 +21,6 @@ struct LandmarkObservation {
   Eigen::Vector2d uv_px;
   double sigma_px = 1;
 };
-
-/// Population prior of one shape parameter.
-struct ShapePrior {
-  std::string parameter;  ///< of shapeParameterNames()
-  double mean = 0, sd = 1;
-  std::string source;
-};
-/// Reads clinical/shape_priors.json (angles in degrees there, radians here).
-std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_dir);
 
 struct FitOptions {
   int max_iterations = 100;

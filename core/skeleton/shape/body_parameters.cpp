@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.h"
 #include "core/skeleton/shape/body_parameters_internal.h"
 #include "core/text.h"
 

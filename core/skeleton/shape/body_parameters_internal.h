@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/skeleton/fit/fit_skeleton.h"
+#include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/population.h"
+#include "core/skeleton/shape/shape.h"
+#include "core/skeleton/shape/shape_priors.h"
 
 namespace sinew {
 

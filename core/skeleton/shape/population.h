@@ -3,7 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "core/skeleton/fit/fit_skeleton.h"
+#include "core/skeleton/kinematics.h"
+#include "core/skeleton/shape/shape.h"
+#include "core/skeleton/shape/shape_priors.h"
 
 namespace sinew {
 

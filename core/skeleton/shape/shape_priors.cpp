@@ -1,3 +1,5 @@
+#include "core/skeleton/shape/shape_priors.h"
+
 #include <algorithm>
 
 #include "core/angle.h"

@@ -14,6 +14,7 @@
 #include "app/experiments/pose_dependence.h"
 #include "app/experiments/rom_preservation.h"
 #include "core/posture/evaluate.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/rom/poses/pose_sampler.h"
 #include "tests/support/resources.h"
 

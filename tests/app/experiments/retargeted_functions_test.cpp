@@ -3,6 +3,7 @@
 
 #include "app/experiments/experiment_shapes.h"
 #include "core/muscle/moment_references.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/retarget/retarget.h"
 #include "core/rom/poses/pose_sampler.h"
 #include "tests/support/resources.h"

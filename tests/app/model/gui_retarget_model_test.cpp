@@ -13,6 +13,8 @@
 #include "app/model/retarget/rom_handles.h"
 #include "app/model/retarget/shape_form.h"
 #include "core/angle.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/rom/poses/pose_sampler.h"
 #include "tests/app/gui_support.h"
 #include "tests/support/plain_model.h"

@@ -31,7 +31,7 @@ using test::threadTime_ms;
 using test::waitUntil;
 using ::testing::HasSubstr;
 
-constexpr int kLimit_ms = 120'000;  // a loaded machine with a software renderer
+constexpr int kLimit_ms = 120'000;  // processor time: a software renderer beside the work
 
 class ExplorerTour : public test::WindowTour {
  protected:

@@ -29,9 +29,11 @@
 #include "app/widgets/views/edit_sphere.h"
 #include "app/widgets/views/model_view.h"
 #include "app/widgets/views/vtk_view.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
+#include "tests/app/widgets/window_tour.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/app/widgets/window_tour.h"
 
 namespace sinew {
 namespace {
@@ -41,7 +43,7 @@ using test::threadTime_ms;
 using test::waitUntil;
 using ::testing::HasSubstr;
 
-constexpr int kLimit_ms = 180'000;  // a loaded machine with a software renderer
+constexpr int kLimit_ms = 180'000;  // processor time: a software renderer beside the work
 
 /// The reference takes seconds to prepare: once for all tests.
 std::shared_ptr<const RetargetReference> sharedReference() {

@@ -31,7 +31,7 @@ namespace {
 using test::letEventsRun;
 using test::waitUntil;
 
-constexpr int kStageLimit_ms = 240'000;  // a loaded machine with a software renderer
+constexpr int kStageLimit_ms = 240'000;  // processor time: a software renderer beside the stage
 
 class Tour : public test::WindowTour {
  protected:

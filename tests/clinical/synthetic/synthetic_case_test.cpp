@@ -6,6 +6,8 @@
 
 #include "clinical/case/case_io.h"
 #include "core/file.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "imaging/rig/rig_from_dicom.h"
 #include "tests/support/resources.h"
 #include "tests/support/retarget_reference.h"

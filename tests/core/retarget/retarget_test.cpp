@@ -8,6 +8,7 @@
 
 #include "core/kernel/sweep.h"
 #include "core/muscle/hill.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/skeleton/shape/body_description.h"
 #include "tests/support/retarget_reference.h"
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -142,18 +143,34 @@ TEST(TriangulateAll, NamesPicksOfTheOtherView) {
   EXPECT_THAT(codes(triangulateAll(rig, sightings).warnings), testing::Contains("swapped_views"));
 }
 
+/// The picks as somebody who counts rows from below would write them.
+std::vector<Sighting> countedFromBelow(const BiplanarRig& rig, std::initializer_list<int> views) {
+  auto sightings = seeMany(rig);
+  for (auto& s : sightings)
+    if (std::ranges::count(views, s.view)) s.uv_px.y() = rig.views[std::size_t(s.view)].height_px - 1 - s.uv_px.y();
+  return sightings;
+}
+
 TEST(TriangulateAll, NamesTheViewWhoseRowsWereCountedFromBelow) {
   const BiplanarRig rig = test::coneBeamRig();
-  for (int flipped : {0, 1, 2}) {
-    auto sightings = seeMany(rig);
-    for (auto& s : sightings)
-      if (flipped == 2 || s.view == flipped) s.uv_px.y() = rig.views[std::size_t(s.view)].height_px - 1 - s.uv_px.y();
-    // An orthogonal pair with parallel central rows hardly notices when both are flipped; only one can be asserted.
-    if (flipped == 2) continue;
-    const auto result = triangulateAll(rig, sightings);
+  for (int flipped : {0, 1}) {
+    const auto result = triangulateAll(rig, countedFromBelow(rig, {flipped}));
     ASSERT_THAT(codes(result.warnings), testing::Contains("flipped_y"));
     EXPECT_THAT(result.warnings.back().message, testing::HasSubstr("view " + std::to_string(flipped + 1)));
   }
+}
+
+// An orthogonal pair whose central rows are parallel hardly notices when both are flipped: the mirror image of the
+// patient explains it. Where one camera looks down on the other's plane nothing else does.
+TEST(TriangulateAll, NamesBothViewsIfTheirGeometryTells) {
+  const BiplanarRig level = test::coneBeamRig();
+  EXPECT_THAT(codes(triangulateAll(level, countedFromBelow(level, {0, 1})).warnings),
+              testing::Not(testing::Contains("flipped_y")));
+  BiplanarRig tilted = level;
+  tilted.views[1].R_CW = Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitX()).toRotationMatrix() * tilted.views[1].R_CW;
+  const auto result = triangulateAll(tilted, countedFromBelow(tilted, {0, 1}));
+  ASSERT_THAT(codes(result.warnings), testing::Contains("flipped_y"));
+  EXPECT_THAT(result.warnings.back().message, testing::HasSubstr("both views"));
 }
 
 }  // namespace

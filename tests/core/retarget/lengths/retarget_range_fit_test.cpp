@@ -5,6 +5,8 @@
 #include "app/experiments/experiment_shapes.h"
 #include "core/muscle/hill.h"
 #include "core/retarget/lengths/range_fit.h"
+#include "core/retarget/prepared/reference.h"
+#include "core/retarget/retarget.h"
 #include "core/rom/maps/rom_map.h"
 #include "tests/support/retarget_reference.h"
 

@@ -5,6 +5,7 @@
 #include "app/experiments/experiment_shapes.h"
 #include "core/angle.h"
 #include "core/muscle/muscle_path.h"
+#include "core/retarget/prepared/reference.h"
 #include "core/retarget/routing/unit_problem_internal.h"
 #include "tests/support/retarget_reference.h"
 
