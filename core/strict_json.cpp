@@ -1,7 +1,6 @@
 #include "core/strict_json.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/text.h"
@@ -204,9 +203,7 @@ double JsonReader::positive() const {
 
 double JsonReader::numberIn(double lower, double upper) const {
   if (value_->is_number() && number() >= lower && number() <= upper) return number();
-  char expected[80];
-  std::snprintf(expected, sizeof expected, "a number %g ... %g", lower, upper);
-  fail(expected);
+  fail("a number " + brief(lower) + " ... " + brief(upper));
 }
 
 std::vector<double> JsonReader::numbers() const {

@@ -1,5 +1,7 @@
 #include "core/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -76,6 +78,17 @@ double parseNumber(std::string_view text, const std::string& where, const std::s
   if (error != std::errc{} || end != t.data() + t.size() || !std::isfinite(value))
     throw InputError{{where, field, "a number", "'" + t + "'"}};
   return value;
+}
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text.find_first_of("123456789") == std::string::npos;
+  return zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+std::string brief(double value, int digits) {
+  return fmt::format("{:.{}g}", value == 0 ? 0.0 : value, digits);
 }
 
 }  // namespace sinew

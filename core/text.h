@@ -17,6 +17,13 @@ std::vector<std::string> nearestNames(std::string_view name, std::span<const std
 /// Ends an error message about a wrong name: "; nearest: a, b, c" or nothing if `known` is empty.
 std::string didYouMean(std::string_view name, std::span<const std::string> known);
 
+// The one way numbers become words, with a point whatever the user's locale says. Longer texts: fmt.
+
+/// A number with so many decimals; never "-0"; "-" if it is not finite.
+std::string fixed(double value, int decimals);
+/// A number with at most so many significant digits and no zeros behind them.
+std::string brief(double value, int digits = 6);
+
 /// @throws InputError naming `where` and `field` if `text` is not one finite number.
 double parseNumber(std::string_view text, const std::string& where, const std::string& field);
 

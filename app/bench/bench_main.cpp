@@ -1,7 +1,6 @@
 // sinew-bench: the table of docs/validation.md, "Speed". Both columns are measured in this run; a peer that is not
 // installed is "not measured".
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <set>
@@ -10,6 +9,7 @@
 #include "app/bench/retarget_rows.h"
 #include "core/file.h"
 #include "core/strict_json.h"
+#include "core/text.h"
 #include "core/version.h"
 
 namespace sinew {
@@ -27,9 +27,7 @@ struct BenchOptions {
 std::string timeText(double seconds) {
   const char* unit = seconds < 1e-6 ? "ns" : seconds < 1e-3 ? "us" : seconds < 1 ? "ms" : "s";
   const double value = seconds * (seconds < 1e-6 ? 1e9 : seconds < 1e-3 ? 1e6 : seconds < 1 ? 1e3 : 1);
-  char text[32];
-  std::snprintf(text, sizeof text, value < 10 ? "%.2f %s" : value < 100 ? "%.1f %s" : "%.0f %s", value, unit);
-  return text;
+  return fixed(value, value < 10 ? 2 : value < 100 ? 1 : 0) + " " + unit;
 }
 
 std::string timesText(const Timing& t, double items) {
@@ -38,9 +36,7 @@ std::string timesText(const Timing& t, double items) {
 }
 
 std::string ratioText(double ratio) {
-  char text[32];
-  std::snprintf(text, sizeof text, ratio < 10 ? "%.1f" : "%.0f", ratio);
-  return text;
+  return fixed(ratio, ratio < 10 ? 1 : 0);
 }
 
 Json timingJson(const Timing& t, double items) {

@@ -116,6 +116,26 @@ double MujocoPeer::passiveForce_N(int unit) {
   return -impl_->d->actuator_force[unit];
 }
 
+Eigen::VectorXd MujocoPeer::actuatorMoments_Nm() {
+  mju_zero(impl_->d->act, impl_->m->na);
+  mju_zero(impl_->d->qvel, impl_->m->nv);
+  mj_forward(impl_->m.get(), impl_->d.get());
+  const Skeleton& s = impl_->skeleton;
+  Eigen::VectorXd moments_Nm = Eigen::VectorXd::Zero(s.coordinateCount());
+  const auto at = [&](const std::string& joint) {
+    return impl_->d->qfrc_actuator + impl_->m->jnt_dofadr[mj_name2id(impl_->m.get(), mjOBJ_JOINT, joint.c_str())];
+  };
+  for (const Joint& joint : s.joints) {
+    if (joint.type == JointType::Free) continue;
+    const bool ball = joint.type == JointType::Ball && withoutSide(joint.name) != "wrist";
+    for (int i = 0; i < joint.coordinate_count; ++i) {
+      const int c = joint.first_coordinate + i;
+      moments_Nm[c] = ball ? at(joint.name)[i] : *at(s.coordinates[std::size_t(c)].name);
+    }
+  }
+  return moments_Nm;
+}
+
 bool MujocoPeer::simulate(int steps) {
   for (int i = 0; i < steps; ++i) mj_step(impl_->m.get(), impl_->d.get());
   const mjWarningStat* w = impl_->d->warning;

@@ -23,6 +23,9 @@ class MujocoPeer {
   Eigen::Vector3d p_WB(int segment) const;  ///< origin of a segment
   /// What the unit's muscle pulls with at rest in this posture, fully relaxed (mj_forward).
   double passiveForce_N(int unit);
+  /// What all actuators together do at rest in this posture, fully relaxed (mj_forward), by our coordinates: about
+  /// hinges the moment; the three entries of a ball joint are its moment vector in the frame of the child [N m].
+  Eigen::VectorXd actuatorMoments_Nm();
   /// Lets it run. @returns false if MuJoCo warned of a state that is not finite.
   bool simulate(int steps);
 

@@ -23,6 +23,12 @@ double MujocoPeer::length_m(int) const {
 Eigen::Vector3d MujocoPeer::p_WB(int) const {
   return Eigen::Vector3d::Zero();
 }
+double MujocoPeer::passiveForce_N(int) {
+  return 0;
+}
+Eigen::VectorXd MujocoPeer::actuatorMoments_Nm() {
+  return {};
+}
 bool MujocoPeer::simulate(int) {
   return false;
 }

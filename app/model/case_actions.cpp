@@ -1,7 +1,7 @@
 #include "app/model/case_actions.h"
+#include "core/text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 namespace sinew {
@@ -85,11 +85,8 @@ void setExamNote(Case& c, const std::string& test, char side, const std::string&
 }
 
 void setThreshold(Case& c, const std::string& test, char side, std::optional<double> threshold_Nm) {
-  if (threshold_Nm && !(*threshold_Nm >= 1 && *threshold_Nm <= 200)) {
-    char found[32];
-    std::snprintf(found, sizeof found, "%.3g N m", *threshold_Nm);
-    throw InputError{{"examination", "stop torque", "1 to 200 N m", found}};
-  }
+  if (threshold_Nm && !(*threshold_Nm >= 1 && *threshold_Nm <= 200))
+    throw InputError{{"examination", "stop torque", "1 to 200 N m", brief(*threshold_Nm, 3) + " N m"}};
   entryOf(c, test, side).threshold_Nm = threshold_Nm;
   dropEmptyEntries(c);
 }

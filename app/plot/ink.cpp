@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/plot/paint_figure.h"
+
 namespace sinew {
 namespace {
 
@@ -95,6 +97,13 @@ void Ink::disc(QPointF centre_mm, double radius_mm, const QColor& colour, bool f
 void Ink::image(const QRectF& box_mm, const QImage& image) {
   painter_.setRenderHint(QPainter::SmoothPixmapTransform);
   painter_.drawImage(units(box_mm), image);
+}
+
+void Ink::figure(const QRectF& box_mm, const Figure& figure, double letters_mm) {
+  painter_.save();
+  painter_.setFont(font({}));
+  paintFigure(painter_, units(box_mm), figure, {.letters = letters_mm * kUnits, .legend = false});
+  painter_.restore();
 }
 
 void Ink::clipTo(const QRectF& box_mm) {

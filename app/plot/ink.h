@@ -7,6 +7,8 @@
 #include <QString>
 #include <vector>
 
+#include "core/figure.h"
+
 namespace sinew {
 
 /// Draws in millimetres from the top left of the page, on any paint device. Everything is opaque (PDF/A-1).
@@ -33,6 +35,7 @@ class Ink {
   void frame(const QRectF& box_mm, double width_mm, const QColor& colour);
   void disc(QPointF centre_mm, double radius_mm, const QColor& colour, bool filled);
   void image(const QRectF& box_mm, const QImage& image);
+  void figure(const QRectF& box_mm, const Figure& figure, double letters_mm);
   void clipTo(const QRectF& box_mm);
   void unclip();
 

@@ -11,7 +11,4 @@ void drawMomentPlot(Ink& ink, const QRectF& box_mm, const PassiveMomentPlot& plo
 /// What the lines mean; drawn once a page.
 void drawMomentLegend(Ink& ink, const QRectF& box_mm);
 
-/// Round step that cuts `range` into 4 to 9 parts.
-double roundStep(double range);
-
 }  // namespace sinew

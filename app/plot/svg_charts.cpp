@@ -1,12 +1,14 @@
 #include "app/plot/svg_charts.h"
 
+#include <fmt/format.h>
+
 #include <QByteArray>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/plot/png_file.h"
 #include "app/plot/svg_parts.h"
+#include "core/text.h"
 
 namespace sinew {
 namespace {
@@ -21,10 +23,8 @@ constexpr const char* kLight = "#f2b28a";
 /// White over orange to dark red; darkens evenly.
 std::string heatColour(double t) {
   t = std::clamp(t, 0.0, 1.0);
-  char text[16];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", int(255 - 105 * t * t), int(255 - 215 * t),
-                int(255 - 235 * std::sqrt(t)));
-  return text;
+  return fmt::format("#{:02x}{:02x}{:02x}", int(255 - 105 * t * t), int(255 - 215 * t),
+                     int(255 - 235 * std::sqrt(t)));
 }
 
 std::string heatPanel(const HeatPanel& panel, const std::vector<std::string>& columns,
@@ -34,8 +34,7 @@ std::string heatPanel(const HeatPanel& panel, const std::vector<std::string>& co
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double value = panel.values[r][c], x = left + cell_w * double(c), y = kTop + cell_h * double(r);
-      char text[16];
-      std::snprintf(text, sizeof text, "%.1f", value);
+      const std::string text = fixed(value, 1);
       const bool dark = value > 0.6 * darkest;
       svg +=
           svgRectangle(x, y, cell_w - 1, cell_h - 1, heatColour(value / darkest)) +

@@ -6,7 +6,7 @@
 
 namespace sinew {
 
-// Figures of the experiments as SVG text, besides the curves of svg_plot.h. Legible in grey.
+// Figures of the experiments as SVG text, besides curves (paint_figure.h). Legible in grey.
 
 /// Numbers over two parameters; the number stands in its field, which is the darker the larger it is.
 struct HeatPanel {

@@ -1,20 +1,16 @@
 #include "app/plot/svg_parts.h"
+#include "core/text.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace sinew {
 
 std::string svgNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
+  return fixed(value, 2);
 }
 
 std::string tickText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
-  return text;
+  return brief(std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
 std::string svgEscaped(const std::string& text) {

@@ -14,6 +14,7 @@
 #include "core/retarget/retarget.h"
 #include "core/rom/maps/rom_map.h"
 #include "core/skeleton/clinical_angles.h"
+#include "core/text.h"
 
 namespace sinew {
 namespace {
@@ -95,12 +96,11 @@ void drawRom(const Model& model, const std::string& joint, const std::string& wi
         widest_rad = std::max(widest_rad, maps.back().twistWidth_rad(polar, azimuth));
   }
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    char label[64];
-    std::snprintf(label, sizeof label, "%s-%.0f", joint.c_str(), with_deg[i]);
+    const std::string label = joint + "-" + fixed(with_deg[i], 0);
     RomPicture sphere;
     sphere.width_px = sphere.height_px = 400;
     sphere.widest_rad = widest_rad;
-    save(renderRomSphere(maps[i], sphere), out / ("rom-" + std::string{label} + ".png"));
+    save(renderRomSphere(maps[i], sphere), out / ("rom-" + label + ".png"));
     ModelPicture body;
     body.width_px = 300;
     body.height_px = 400;

@@ -1,7 +1,9 @@
 #include "clinical/pipeline/patient_model.h"
 
 #include "clinical/case/case_io.h"
+#include "clinical/case/patient_body.h"
 #include "core/file.h"
+#include "core/model/physical_scaling.h"
 
 namespace sinew {
 
@@ -15,7 +17,8 @@ Model modelBeforeExam(const Case& c, const Model& reference, const std::filesyst
                       const std::filesystem::path& resource_dir) {
   if (c.musculature && stateOf(c, Stage::Musculature, resource_dir) == StageState::Done)
     return loadModel(checkedFile(*c.musculature, case_dir), reference);
-  Model model = deformedModel(reference, c.skeleton->shape);
+  Model model = withPhysics(deformedModel(reference, c.skeleton->shape), reference,
+                            patientPhysics(c.patient, c.exam, c.skeleton->shape, reference.skeleton));
   model.name = kPatientModelName;
   return model;
 }

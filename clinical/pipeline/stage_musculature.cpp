@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "clinical/case/case_io.h"
+#include "clinical/case/patient_body.h"
 #include "clinical/pipeline/patient_model.h"
 #include "clinical/pipeline/reference_files.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
 #include "core/file.h"
+#include "core/model/physical_scaling.h"
 #include "core/retarget/prepared/reference.h"
 #include "core/retarget/retarget.h"
 #include "core/skeleton/shape/shape_json.h"
@@ -20,7 +22,9 @@ constexpr const char* kFolder = "results/musculature/";
 constexpr auto kResources = referenceModelAnd("rom/rom_norms.json", "skeleton/joint_motions.json");
 
 std::string inputs(const Case& c) {
-  return inputText({{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)}});
+  return inputText({{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)},
+                    {"mass_kg", numberOrNull(c.patient.mass_kg)},
+                    {"age_years", numberOrNull(ageYears(c.patient, c.exam))}});
 }
 
 bool hasResult(const Case& c) {
@@ -57,11 +61,14 @@ std::string summaryOf(const Retargeted& retargeted) {
 StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   const auto reference = context.retargeting ? context.retargeting() : loadRetargetReference(context.resource_dir);
-  Retargeted retargeted = retarget(*reference, c.skeleton->shape, {}, job);
+  const Skeleton& standard = context.reference->skeleton;
+  const RetargetOptions options{.physics = patientPhysics(c.patient, c.exam, c.skeleton->shape, standard)};
+  Retargeted retargeted = retarget(*reference, c.skeleton->shape, options, job);
   run.outcome = retargeted.outcome;
   if (run.outcome != Outcome::Converged) return run;
   retargeted.model.name = kPatientModelName;
   run.warnings = validateModel(retargeted.model);
+  addWarnings(run.warnings, patientPhysicsDoubts(c.patient, c.skeleton->shape, standard));
   c.musculature = storeMusculature(retargeted.model, context);
   const bool examined = resultIsOfToday(c, Stage::Exam, context.resource_dir);
   c.model = storeModel(examined ? withLengthFactors(retargeted.model, c.exam_fit->length_factors) : retargeted.model,
@@ -92,18 +99,19 @@ std::string resultLine(const Case& c) {
 
 }  // namespace
 
-constinit const StageRow kMusculatureRow{.stage = Stage::Musculature,
-                                         .name = "musculature",
-                                         .title = "Musculature",
-                                         .revision = 2,  // retargeted instead of anchored to the nearest bone
-                                         .resources = kResources,
-                                         .inputs = inputs,
-                                         .has_result = hasResult,
-                                         .run = run,
-                                         .files = files,
-                                         .copy_result = copyResult,
-                                         .to_enter = "Nothing is entered here.",
-                                         .entered = entered,
-                                         .result_line = resultLine};
+constinit const StageRow kMusculatureRow{
+    .stage = Stage::Musculature,
+    .name = "musculature",
+    .title = "Musculature",
+    .revision = 3,  // 2: retargeted instead of anchored to the nearest bone; 3: the patient's own mass
+    .resources = kResources,
+    .inputs = inputs,
+    .has_result = hasResult,
+    .run = run,
+    .files = files,
+    .copy_result = copyResult,
+    .to_enter = "Nothing is entered here.",
+    .entered = entered,
+    .result_line = resultLine};
 
 }  // namespace sinew

@@ -6,16 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace sinew {
+#include "clinical/case/age.h"
 
-/// Completed years and months.
-struct Age {
-  int years = 0, months = 0;
-  double inYears() const { return years + months / 12.0; }
-  friend bool operator==(const Age&, const Age&) = default;
-};
-/// Age on a day; dates as 2014-03-09 or 20140309. nullopt if one of them is empty, malformed or out of order.
-std::optional<Age> ageAt(std::string_view birth_date, std::string_view day);
+namespace sinew {
 
 /// Whom a norm is asked for. What is unknown is left out; norms that need it are then not given.
 struct NormQuery {

@@ -58,7 +58,7 @@ SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const 
   patient.patient = identityOf(skeleton, options.seed);
   patient.truth.figures = boneFigures(reference_skeleton, patient.shape, patient.posture);
   patient.truth.seed = options.seed;
-  const SyntheticExam exam = drawExam(reference, patient.shape, *patient.patient.mass_kg, options);
+  const SyntheticExam exam = drawExam(reference, patient.shape, patient.patient, options);
   patient.exam = exam.exam;
   patient.truth.length_factors = exam.length_factors;
   patient.patient.diagnosis = exam.diagnosis;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clinical/case/patient_body.h"
 #include "core/random_source.h"
 #include "core/retarget/prepared/reference.h"
 #include "core/retarget/retarget.h"
@@ -27,7 +28,7 @@ std::map<std::string, double> drawContractures(const ExamProtocol& protocol, Ran
 
 }  // namespace
 
-SyntheticExam drawExam(const RetargetReference& reference, const ShapeParameters& shape, double mass_kg,
+SyntheticExam drawExam(const RetargetReference& reference, const ShapeParameters& shape, const Patient& patient,
                        const SyntheticOptions& options) {
   const ExamProtocol protocol = loadExamProtocol(options.resource_dir);
   RandomSource contracture_source{options.seed, 4}, reading_source{options.seed, 5};
@@ -36,11 +37,13 @@ SyntheticExam drawExam(const RetargetReference& reference, const ShapeParameters
   drawn.diagnosis = "Synthetic: short hamstrings, hip flexors";
   drawn.exam.examiner = "Sinew (simulated)";
   drawn.exam.date = "2026-01-05";
-  const Model patient = withLengthFactors(retarget(reference, shape).model, drawn.length_factors);
+  const RetargetOptions body{.physics = patientPhysics(patient, drawn.exam, shape, reference.model().skeleton)};
+  const Model model = withLengthFactors(retarget(reference, shape, body).model, drawn.length_factors);
   for (const auto& test : protocol.tests)
     for (const char side : {'r', 'l'}) {
       const double noise_deg = options.exam_noise_deg * reading_source.normal();
-      const SimulatedTest found = simulateTest(patient, test, side, test.threshold_Nm * mass_kg / kThresholdMass_kg);
+      const SimulatedTest found =
+          simulateTest(model, test, side, test.threshold_Nm * *patient.mass_kg / kThresholdMass_kg);
       ExamEntry entry;
       entry.test = test.id;
       entry.side = side;

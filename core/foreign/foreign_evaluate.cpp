@@ -23,6 +23,9 @@ PostureEvaluation evaluatePosture(const ForeignModel& model, const ForeignPostur
   PostureEvaluation e;
   e.length_m = foreignLengths(model, posture);
   e.moment_arm_m = foreignMomentArms(model, posture);
+  e.structure_torque = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.coordinates.size()));
+  for (const ForeignCoordinateForce& force : model.coordinate_forces)
+    e.structure_torque[force.coordinate] += coordinateForce(force, posture[force.coordinate]);
   fillPassive(model.musculature, e);
   return e;
 }

@@ -11,8 +11,8 @@ namespace sinew {
 // What `sinew evaluate` and `sinew curve` show, for a foreign model. Forces by our Hill curves (core/muscle/hill.h)
 // with the file's parameters. Vectors by coordinate follow ForeignModel::coordinates.
 
-/// Lengths, moment arms, fibres, passive forces and torques. The fields about validity, margins and envelope are not
-/// filled: a foreign model has no such limits.
+/// Lengths, moment arms, fibres, passive forces and torques; structure torques are those of the coordinates' forces.
+/// The fields about validity, margins and envelope are not filled: a foreign model has no such limits.
 PostureEvaluation evaluatePosture(const ForeignModel& model, const ForeignPosture& posture);
 
 struct NamedForeignPosture {

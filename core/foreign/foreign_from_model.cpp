@@ -27,6 +27,9 @@ class Converter {
       const auto [low, high] = rangeOf(c);
       out_.coordinates.push_back({c.name, c.translational, std::clamp(0.0, low, high), low, high, true, false});
     }
+    for (std::size_t i = 0; i < model.passive_moments.size(); ++i)
+      if (const PassiveMoment& m = model.passive_moments[i]; m.upper_Nm > 0 || m.lower_Nm > 0)
+        out_.coordinate_forces.push_back({skeleton_.coordinates[i].name + "_structures", static_cast<int>(i), m});
     for (const Joint& joint : skeleton_.joints) addJoint(joint);
     for (const Joint& joint : skeleton_.joints)
       for (const PatellaDriver& d : skeleton_.patellae)

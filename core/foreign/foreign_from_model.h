@@ -18,8 +18,8 @@ struct ForeignOptions {
   enum class Patella { Spline, Quartic } patella = Patella::Spline;
 };
 
-/// Our model as a foreign one: bodies, joints, coordinates (the clinical ones, same names and order, then the two
-/// "patella_r_glide", "patella_l_glide"), paths; a body has the index of our segment.
+/// Our model as a foreign one: bodies, joints, passive structures, coordinates (the clinical ones, same names and
+/// order, then the two "patella_r_glide", "patella_l_glide"), paths; a body has the index of our segment.
 ///
 /// Exact: bodies but the radius, units anchored to one segment a point. Not exact: blended points (see options); the
 /// radius turns by the clinical pronation instead of the wrist's twist, the same while wrist flexion or deviation is

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/foreign/coordinate_force.h"
 #include "core/foreign/scalar_function.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/muscle/musculature.h"
@@ -114,6 +115,7 @@ struct ForeignModel {
   std::vector<ForeignCoordinate> coordinates;
   std::vector<ForeignJoint> joints;        ///< what a joint hangs on comes before it
   std::vector<ForeignCoupling> couplings;  ///< in an order in which each can be computed from those before
+  std::vector<ForeignCoordinateForce> coordinate_forces;
   std::vector<WrapObject> wrap_objects;
   Musculature musculature;                ///< parameters of the units; their paths are below
   std::vector<std::string> muscle_kinds;  ///< by unit: "Thelen2003Muscle"

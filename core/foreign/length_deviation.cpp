@@ -1,7 +1,8 @@
 #include "core/foreign/length_deviation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include "core/foreign/foreign_from_model.h"
 #include "core/muscle/muscle_path.h"
@@ -40,17 +41,14 @@ std::vector<std::vector<double>> differences(const Model& model, const std::vect
 std::string lengthsText(const LengthDeviation& deviation) {
   if (deviation.units.empty()) return "no muscles";
   const UnitDeviation& worst = deviation.worst();
-  char text[320];
-  int length = std::snprintf(
-      text, sizeof text,
-      "Lengths against the original over %d postures of the adult norm and %d random ones: %d of "
-      "%zu muscles within 0.1 mm",
+  std::string text = fmt::format(
+      "Lengths against the original over {} postures of the adult norm and {} random ones: {} of {} muscles within "
+      "0.1 mm",
       deviation.norm_postures, deviation.random_postures, deviation.exactUnits(), deviation.units.size());
   if (!worst.isExact())
-    std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
-                  "; the others deviate by up to %.1f mm in the median, %.1f mm at most (%s)",
-                  1000 * deviation.medianOfMaxima_m(), 1000 * std::max(worst.max_norm_m, worst.max_random_m),
-                  worst.unit.c_str());
+    text += fmt::format("; the others deviate by up to {:.1f} mm in the median, {:.1f} mm at most ({})",
+                        1000 * deviation.medianOfMaxima_m(), 1000 * std::max(worst.max_norm_m, worst.max_random_m),
+                        worst.unit);
   return text;
 }
 
@@ -87,7 +85,7 @@ LengthDeviation lengthDeviation(const Model& model, const std::function<Eigen::V
   const auto sweeps = rangePostures(model.skeleton, kStep_deg, 0);
   const auto random = normalPostures(model.skeleton, kRandomPostures);
   const auto norm_off_m = differences(model, sweeps, theirs), random_off_m = differences(model, random, theirs);
-  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}, {}};
+  LengthDeviation deviation{static_cast<int>(sweeps.size()), static_cast<int>(random.size()), {}, {}, {}};
   for (std::size_t u = 0; u < model.musculature.units.size(); ++u) {
     const MusculotendonUnit& unit = model.musculature.units[u];
     UnitDeviation of{.unit = unit.name};
@@ -120,11 +118,13 @@ LengthDeviation lengthDeviation(const Model& model, const ForeignModel& foreign)
   });
   for (const Joint& joint : model.skeleton.joints)
     if (!joint.edited.steps.empty()) deviation.boxed_ranges.push_back(joint.name);
+  deviation.structures = structureDeviation(model, foreign);
   return deviation;
 }
 
 std::string summaryText(const LengthDeviation& deviation) {
-  return lengthsText(deviation) + boxedRangesText(deviation);
+  return lengthsText(deviation) + (deviation.structures ? "; " + summaryText(*deviation.structures) : "") +
+         boxedRangesText(deviation);
 }
 
 }  // namespace sinew

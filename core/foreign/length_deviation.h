@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/foreign/foreign_model.h"
+#include "core/foreign/structure_deviation.h"
 #include "core/model/model.h"
 
 namespace sinew {
@@ -23,6 +25,8 @@ struct LengthDeviation {
   std::vector<UnitDeviation> units;
   /// Joints whose edited range the other program has as the box about it; empty if none, or if it has the range.
   std::vector<std::string> boxed_ranges;
+  std::optional<StructureDeviation>
+      structures;  ///< of the moments of capsules and ligaments, where they were compared
 
   int exactUnits() const;
   double medianOfMaxima_m() const;  ///< over the units that are not exact; 0 if all are
@@ -33,6 +37,7 @@ struct LengthDeviation {
 LengthDeviation lengthDeviation(const Model& model, const std::function<Eigen::VectorXd(const Posture&)>& theirs);
 
 /// The same for a model that foreignFromModel() made, or one read back from its file: coordinates and units by name.
+/// Compares the structures too.
 LengthDeviation lengthDeviation(const Model& model, const ForeignModel& foreign);
 
 /// One line: how many are exact, how far the others are off.

@@ -1,8 +1,9 @@
 #include "core/geometry/mesh_io.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <type_traits>
 
@@ -135,15 +136,8 @@ std::vector<NamedMesh> readMeshes(const std::filesystem::path& file) {
 
 std::string objText(const TriangleMesh& mesh) {
   std::string text;
-  char line[96];
-  for (const auto& v : mesh.vertices) {
-    std::snprintf(line, sizeof line, "v %.7g %.7g %.7g\n", v.x(), v.y(), v.z());
-    text += line;
-  }
-  for (const auto& t : mesh.triangles) {
-    std::snprintf(line, sizeof line, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
-    text += line;
-  }
+  for (const auto& v : mesh.vertices) text += fmt::format("v {:.7g} {:.7g} {:.7g}\n", v.x(), v.y(), v.z());
+  for (const auto& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include "core/geometry/view.h"
 
+#include <limits>
+
 namespace sinew {
 namespace {
 
@@ -41,6 +43,26 @@ Ray backProject(const View& view, const Eigen::Vector2d& uv_px) {
   const Ray ray_C = std::visit([&](const auto& p) { return rayInView(p, uv_px); }, view.projection);
   const Eigen::Matrix3d R_WC = view.R_CW.transpose();
   return {R_WC * (ray_C.origin_W - view.p_CW), R_WC * ray_C.direction_W};
+}
+
+Eigen::Vector2d principalPoint_px(const View& view) {
+  if (const auto* c = std::get_if<ConeBeam>(&view.projection)) return {c->cx_px, c->cy_px};
+  if (const auto* s = std::get_if<SlotScan>(&view.projection)) return {s->u0_px, s->v0_px};
+  const auto& o = std::get<Orthographic>(view.projection);
+  return {o.u0_px, o.v0_px};
+}
+
+double pixelsPerMillimetre(const View& view, const Eigen::Vector3d& p_W) {
+  constexpr double kStep_mm = 1, kStep_m = 1e-3;
+  const auto here = project(view, p_W);
+  double sum = 0;
+  for (const int axis : {0, 1}) {
+    const Eigen::Vector3d across = view.R_CW.row(axis);
+    const auto there = project(view, Eigen::Vector3d{p_W + kStep_m * across});
+    if (!here || !there) return std::numeric_limits<double>::quiet_NaN();
+    sum += (*there - *here).norm() / kStep_mm;
+  }
+  return sum / 2;
 }
 
 std::string projectionName(const View& view) {

@@ -10,9 +10,9 @@ namespace sinew {
 
 // Geometry of one radiograph: pixel <- point in space. Frames: W world [m]; C view frame [m]: x along +u, y along +v,
 // z from the X-ray source towards the detector; I image [px]: origin at the centre of the top-left pixel, u right,
-// v down. An image that is stored mirrored (a posterior-anterior film shown with the patient's right on the left) has a
-// left-handed C: R_CW is then orthogonal with determinant -1. Sources: Hartley & Zisserman 2003, ch. 6 (pinhole); OpenCV's distortion model; slot scanner geometry of EOS
-// type (fan across the slot, parallel along the scan).
+// v down. An image that is stored mirrored (a posterior-anterior film shown with the patient's right on the left) has
+// a left-handed C: R_CW is then orthogonal with determinant -1. Sources: Hartley & Zisserman 2003, ch. 6 (pinhole);
+// OpenCV's distortion model; slot scanner geometry of EOS type (fan across the slot, parallel along the scan).
 
 /// Point source and flat detector; C has its origin in the source. Pinhole with Brown distortion.
 struct ConeBeam {
@@ -24,9 +24,9 @@ struct ConeBeam {
 /// Slot scanner: C has its origin in the isocentre; u is scaled to the plane z = 0 and magnified across the slot by
 /// D / (D + z), v is the scan position, not magnified.
 struct SlotScan {
-  double source_to_isocenter_m = 0;                 ///< D
-  double column_spacing_m = 0, row_spacing_m = 0;   ///< of one pixel in the isocentre plane
-  double u0_px = 0, v0_px = 0;                      ///< image of the isocentre
+  double source_to_isocenter_m = 0;                ///< D
+  double column_spacing_m = 0, row_spacing_m = 0;  ///< of one pixel in the isocentre plane
+  double u0_px = 0, v0_px = 0;                     ///< image of the isocentre
   friend bool operator==(const SlotScan&, const SlotScan&) = default;
 };
 
@@ -55,6 +55,13 @@ Ray backProject(const View& view, const Eigen::Vector2d& uv_px);
 
 /// "cone_beam", "slot_scan" or "orthographic".
 std::string projectionName(const View& view);
+
+/// Image of the axis of the beam: principal point of a cone beam, image of the isocentre otherwise.
+Eigen::Vector2d principalPoint_px(const View& view);
+
+/// Pixels per millimetre across the beam at a point: the mean over both image axes. What turns a reader's error in
+/// mm at the body into pixels. NaN behind the source.
+double pixelsPerMillimetre(const View& view, const Eigen::Vector3d& p_W);
 
 namespace detail {
 

@@ -24,6 +24,7 @@ Model deformedModel(const Model& reference, const ShapeParameters& shape) {
   model.name = "individual";
   model.shape = shape;
   model.skeleton = deformedSkeleton(reference.skeleton, shape);
+  model.passive_moments = scaledStructures(reference.passive_moments, reference.skeleton, model.skeleton);
   model.bones = deformedBones(reference, shape, model.skeleton);
 
   const std::vector<double> parameters = toVector(shape);

@@ -9,6 +9,8 @@
 #include "core/error.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/muscle/musculature.h"
+#include "core/passive/passive_moment.h"
+#include "core/passive/structures.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/body_description.h"
 #include "core/skeleton/shape/shape.h"
@@ -30,6 +32,8 @@ struct Model {
   ShapeParameters shape;  ///< relative to the reference
   Skeleton skeleton;      ///< of that shape
   Musculature musculature;
+  PassiveMoments passive_moments;  ///< of capsules and ligaments, by coordinate; empty = none
+  Laxity laxity;                   ///< of the reference: how much wider the ranges of the young are
   std::shared_ptr<const std::vector<BoneMesh>> bones = std::make_shared<std::vector<BoneMesh>>();
   /// By unit: what the exam changed (1 if absent). A record; the lengths in `musculature` include it already.
   std::map<std::string, double> length_factors;
@@ -47,14 +51,16 @@ std::optional<std::string> presetOf(const std::string& model_name);
 
 /// The model of a shape: bones and joints deformed, path points carried by the same field ("naive anchoring": each
 /// anchor moves with its bone), fibre and tendon lengths scaled by the ratio of path lengths at the zero posture;
-/// F_max stays. @pre `reference` is undeformed. @throws InputError for a shape that the deformation cannot represent.
+/// passive structures by scaledStructures(); F_max stays. @pre `reference` is undeformed. @throws InputError for a
+/// shape that the deformation cannot represent.
 Model deformedModel(const Model& reference, const ShapeParameters& shape);
 
 /// Versioned JSON ("sinew.model", version 1). Bone meshes are not stored, they follow from the shape; except those
 /// that a person supplied (replaceBones()): they go into a file beside it, NAME.bones.bin, of which the model file
 /// keeps the name and the SHA-256.
 void saveModel(const Model& model, const std::filesystem::path& file);
-/// `reference` supplies the bones. @throws InputError: where, field, expected, found; supplied bones that are missing
+/// `reference` supplies the bones, and to a file from before there were passive structures its own, scaled.
+/// @throws InputError: where, field, expected, found; supplied bones that are missing
 /// or changed included.
 Model loadModel(const std::filesystem::path& file, const Model& reference);
 /// "reference", "reference:athlete" or a file.

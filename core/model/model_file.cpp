@@ -6,6 +6,7 @@
 #include "core/model/deformed_bones_internal.h"
 #include "core/model/model.h"
 #include "core/model/musculature_json.h"
+#include "core/model/passive_json.h"
 #include "core/model/skeleton_json.h"
 #include "core/skeleton/shape/shape_json.h"
 
@@ -54,6 +55,7 @@ void saveModel(const Model& model, const std::filesystem::path& file) {
             {"name", model.name},
             {"shape", shapeToJson(model.shape)},
             {"skeleton", skeletonToJson(model.skeleton)},
+            {"passive_moments", passiveMomentsToJson(model.passive_moments, model.skeleton)},
             {"muscles", musculatureToJson(model.musculature, model.skeleton)},
             {"length_factors", factors}};
   if (model.physics) root["physics"] = physicsFactorsToJson(*model.physics);
@@ -67,12 +69,17 @@ Model loadModel(const std::filesystem::path& file, const Model& reference) {
   const Json root = parseJson(readFile(file), where);
   const JsonReader json{root, where};
   json.expectFormat("sinew.model", 1);
-  json.allowOnly(
-      {"format", "version", "frames", "name", "shape", "skeleton", "muscles", "length_factors", "physics", "bones"});
+  json.allowOnly({"format", "version", "frames", "name", "shape", "skeleton", "passive_moments", "muscles",
+                  "length_factors", "physics", "bones"});
   Model model;
   model.name = json["name"].text();
   model.shape = shapeFromJson(json["shape"]);
   model.skeleton = skeletonFromJson(json["skeleton"]);
+  if (const auto moments = json.find("passive_moments"))
+    model.passive_moments = passiveMomentsFromJson(*moments, model.skeleton);
+  else
+    model.passive_moments = scaledStructures(reference.passive_moments, reference.skeleton, model.skeleton);
+  model.laxity = reference.laxity;
   model.musculature = musculatureFromJson(json["muscles"], model.skeleton);
   for (const auto& [unit, factor] : json["length_factors"].members()) {
     namedIndex(factor, unit, [&](const std::string& name) { return model.musculature.unitIndex(name); });

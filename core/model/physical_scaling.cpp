@@ -1,7 +1,8 @@
 #include "core/model/physical_scaling.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <cstdio>
 
 #include "core/muscle/muscle_path.h"
 #include "core/muscle/unit_selection.h"
@@ -46,6 +47,21 @@ double massFactor(const std::string& segment, double deformed_kg, double referen
   return factor != factors.mass_factors.end() ? factor->second : 1;
 }
 
+/// Stops of the age; those that are not where the age before had put them were moved by a person and stay.
+void setStopsOfAge(Skeleton& skeleton, const Model& reference, const std::optional<double>& before_years,
+                   const std::optional<double>& age_years) {
+  Skeleton before = reference.skeleton, now = reference.skeleton;
+  if (before_years) widenStops(before, reference.laxity, *before_years);
+  if (age_years) widenStops(now, reference.laxity, *age_years);
+  constexpr double kSame_rad = 1e-9;  // a model file keeps every digit
+  for (std::size_t i = 0; i < skeleton.coordinates.size(); ++i) {
+    Coordinate& c = skeleton.coordinates[i];
+    const Coordinate &was = before.coordinates[i], &is = now.coordinates[i];
+    if (std::abs(c.stop_min_rad - was.stop_min_rad) < kSame_rad) c.stop_min_rad = is.stop_min_rad;
+    if (std::abs(c.stop_max_rad - was.stop_max_rad) < kSame_rad) c.stop_max_rad = is.stop_max_rad;
+  }
+}
+
 void checkSegments(const Skeleton& skeleton, const PhysicsFactors& factors) {
   for (const auto* named : {&factors.mass_factors, &factors.mass_ratios})
     for (const auto& [segment, factor] : *named)
@@ -77,6 +93,9 @@ Model withPhysics(const Model& model, const Model& reference, const PhysicsFacto
     segment.p_BCom = deformed[at].p_BCom;
     segment.inertia_B_kgm2 = factor * deformed[at].inertia_B_kgm2;
   }
+  setStopsOfAge(result.skeleton, reference, model.physics ? model.physics->age_years : std::nullopt,
+                factors.age_years);
+  result.passive_moments = scaledStructures(reference.passive_moments, reference.skeleton, result.skeleton);
   constexpr double kByRule = -1;
   const auto strength = factorsByUnit(result.musculature, factors.strength_factors, kByRule);
   const auto X_WB = segmentPoses(reference.skeleton, zeroPosture(reference.skeleton));
@@ -88,6 +107,28 @@ Model withPhysics(const Model& model, const Model& reference, const PhysicsFacto
         (strength[i] == kByRule ? crossSectionScale(reference.skeleton, own, parameters, X_WB) : strength[i]);
   }
   return result;
+}
+
+double volumeMass_kg(const Skeleton& reference, const ShapeParameters& shape) {
+  double mass_kg = 0;
+  for (const Segment& segment : deformedInertias(reference, toVector(shape))) mass_kg += segment.mass_kg;
+  return mass_kg;
+}
+
+std::map<std::string, double> massFactorsFor(const Skeleton& reference, const ShapeParameters& shape,
+                                             double mass_kg) {
+  const double volume_kg = volumeMass_kg(reference, shape);
+  const double factor = mass_kg / volume_kg;
+  constexpr double kMost = 5;
+  if (!(factor > 1 / kMost && factor < kMost)) {
+    char found[96];
+    std::snprintf(found, sizeof found, "%.1f kg, where bones of this size belong to a body of about %.0f kg", mass_kg,
+                  volume_kg);
+    throw InputError{{"body", "mass_kg", "the mass of this body", found}};
+  }
+  std::map<std::string, double> factors;
+  for (int i = 0; i < reference.movingSegmentCount(); ++i) factors[reference.segments[std::size_t(i)].name] = factor;
+  return factors;
 }
 
 }  // namespace sinew

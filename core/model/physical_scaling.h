@@ -1,5 +1,7 @@
 #pragma once
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "core/model/model.h"
 
@@ -47,9 +49,17 @@ double crossSectionScale(const Skeleton& reference, const MusculotendonUnit& uni
 /// The model with masses, inertias and F_max of its shape: masses and inertias of the deformed volume
 /// (core/skeleton/deformed_inertia.h), times the mass factor or brought to the mass ratio of the reference's; F_max =
 /// reference's times the strength factor, or times crossSectionScale() where none is named. Everything is computed
-/// from `reference`, so that applying it again with other factors leaves no trace of the first. The factors stay in
-/// Model::physics.
+/// from `reference`, so that applying it again with other factors leaves no trace of the first. Passive structures
+/// follow the new mass (scaledStructures()), joint stops the age (widenStops()), except stops that a person moved.
+/// The factors stay in Model::physics.
 /// @throws InputError for names that the model does not have, a factor and a ratio of one segment.
 Model withPhysics(const Model& model, const Model& reference, const PhysicsFactors& factors);
+
+/// What a body of this shape weighs if it is as dense as the reference [kg].
+double volumeMass_kg(const Skeleton& reference, const ShapeParameters& shape);
+
+/// One factor for every segment, so that a body of this shape has this mass in all [kg]: what remains between bones
+/// and scales is flesh. @throws InputError if it would be beyond 1/5 to 5: mass and bones are not of one person.
+std::map<std::string, double> massFactorsFor(const Skeleton& reference, const ShapeParameters& shape, double mass_kg);
 
 }  // namespace sinew

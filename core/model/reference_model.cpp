@@ -10,6 +10,9 @@ Model loadReferenceModel(const std::filesystem::path& resource_dir, std::string_
   if (preset != kDefaultPreset) model.name += ":" + std::string{preset};
   model.skeleton = loadReferenceSkeleton(resource_dir);
   setStops(model.skeleton, loadRomPreset(resource_dir, preset, model.skeleton));
+  PassiveStructures structures = loadPassiveStructures(resource_dir, model.skeleton, preset);
+  model.passive_moments = passiveMomentsAtStops(structures, model.skeleton);
+  model.laxity = std::move(structures.laxity);
   model.musculature = loadMusculature(resource_dir, model.skeleton, preset);
   model.bones = loadBoneMeshes(resource_dir, model.skeleton);
   return model;

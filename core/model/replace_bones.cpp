@@ -4,7 +4,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <memory>
 
@@ -22,9 +21,7 @@ constexpr double kSameCenter_m = 1e-6;    // a landmark that coincides with a jo
 constexpr double kLargestSize = 4;        // ratio of sizes: a wrong unit is off by 10 at least
 
 std::string millimetres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * value_m);
-  return text;
+  return fixed(1e3 * value_m, 1) + " mm";
 }
 
 double diagonal_m(const TriangleMesh& mesh) {

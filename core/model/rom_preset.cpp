@@ -1,7 +1,6 @@
 #include "core/model/rom_preset.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -11,12 +10,6 @@
 
 namespace sinew {
 namespace {
-
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 void readTarget(const JsonReader& json, RomBound& bound) {
   const auto test = json.find("test");
@@ -44,7 +37,7 @@ RomBound couplingFrom(const JsonReader& json) {
     bound.terms.push_back({coordinate, factor.numberIn(-100, 100)});
     const double f = bound.terms.back().factor;
     bound.name += bound.name.empty() ? (f < 0 ? "-" : "") : (f < 0 ? " - " : " + ");
-    if (std::abs(f) != 1) bound.name += shortNumber(std::abs(f)) + " ";
+    if (std::abs(f) != 1) bound.name += brief(std::abs(f)) + " ";
     bound.name += coordinate;
   }
   if (bound.terms.size() < 2) json["terms"].fail("at least two coordinates");

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "core/model/model.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/text.h"
 
 namespace sinew {
 namespace {
@@ -22,14 +22,8 @@ class Findings {
   Warnings warnings_;
 };
 
-std::string twoDecimals(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 std::string mm(double length_m) {
-  return twoDecimals(1000 * length_m) + " mm";
+  return fixed(1000 * length_m, 2) + " mm";
 }
 
 bool isSegment(const Skeleton& s, int index) {
@@ -134,7 +128,7 @@ void checkUnit(const MusculotendonUnit& unit, const Skeleton& s, const std::vect
   const double fiber = equilibrium(unit, length_m, 0).normalized_fiber_length;
   if (fiber > 1.15 || fiber < 0.3)  // what the fit of lengths leaves out in the reference, with a margin for shapes
     findings.add("muscle_standing_fiber", unit.name,
-                 "its fibre is at " + twoDecimals(fiber) + " of its optimal length when standing upright" +
+                 "its fibre is at " + fixed(fiber, 2) + " of its optimal length when standing upright" +
                      (shortened ? ", as expected of a muscle that the examination found short" : ""));
   if (length_m > longestLength_m(unit))
     findings.add("muscle_overstretched", unit.name,
@@ -168,12 +162,28 @@ void checkMirror(const Model& model, const std::vector<RigidTransform>& X_WB, Fi
   }
 }
 
+/// Whoever asks a stop and whoever asks the structures there must get the same answer (core/passive/structures.h).
+void checkStructures(const Model& model, Findings& findings) {
+  constexpr double kSame_rad = 1e-9;
+  const auto& coordinates = model.skeleton.coordinates;
+  if (model.passive_moments.empty()) return;
+  if (model.passive_moments.size() != coordinates.size())
+    return findings.add("passive_structures", "passive_moments", "are not one a coordinate");
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const PassiveMoment& m = model.passive_moments[i];
+    if ((m.upper_Nm > 0 && std::abs(m.upper_rad - coordinates[i].stop_max_rad) > kSame_rad) ||
+        (m.lower_Nm > 0 && std::abs(m.lower_rad - coordinates[i].stop_min_rad) > kSame_rad))
+      findings.add("passive_structures", coordinates[i].name, "has structures that end elsewhere than its stop");
+  }
+}
+
 }  // namespace
 
 Warnings validateModel(const Model& model) {
   Findings findings;
   const Skeleton& s = model.skeleton;
   checkSkeleton(s, findings);
+  checkStructures(model, findings);
   for (const Landmark& landmark : s.landmarks)
     if (!isSegment(s, landmark.segment) || !landmark.p_BL.allFinite())
       findings.add("landmark", landmark.name, "is on no segment");

@@ -1,7 +1,6 @@
 #include "core/muscle/hill_parameters.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/error.h"
 #include "core/muscle/unit_selection.h"
@@ -31,9 +30,8 @@ Musculature withCurves(Musculature musculature, std::span<const CurveEdit> edits
   for (const CurveEdit& edit : edits) {
     const HillField& field = hillField(edit.field, edit.units);
     if (!(edit.value >= field.low && edit.value <= field.high)) {
-      char expected[80];
-      std::snprintf(expected, sizeof expected, "a number %g ... %g", field.low, field.high);
-      throw InputError{{edit.units, edit.field, expected, std::to_string(edit.value)}};
+      throw InputError{
+          {edit.units, edit.field, "a number " + brief(field.low) + " ... " + brief(field.high), brief(edit.value)}};
     }
     for (const int i : unitsNamed(musculature, edit.units))
       musculature.units[std::size_t(i)].curves.*field.value = edit.value;

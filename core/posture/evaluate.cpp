@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
+#include "core/passive/structure_moments.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -18,9 +19,11 @@ void fillPassive(const Musculature& musculature, PostureEvaluation& e) {
     e.passive_force_N[i] = state.force_N;
   }
   e.passive_torque = e.moment_arm_m.transpose() * e.passive_force_N;
+  if (e.structure_torque.size() > 0) e.passive_torque += e.structure_torque;
 }
 
-PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture) {
+PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture,
+                                  const PassiveMoments& structures) {
   const Kinematics clinical = clinicalKinematics(skeleton, posture);
   const auto count = static_cast<Eigen::Index>(musculature.units.size());
   PostureEvaluation e;
@@ -31,6 +34,7 @@ PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& m
     e.length_m[i] = pathLength(unit, clinical.X_WB);
     e.moment_arm_m.row(i) = momentArms(unit, clinical).transpose();
   }
+  e.structure_torque = structureMoments_Nm(skeleton, structures, posture);
   fillPassive(musculature, e);
   const auto constraints = constraintMargins(skeleton, musculature, posture);
   for (const ConstraintMargin& c : constraints) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/muscle/musculature.h"
+#include "core/passive/passive_moment.h"
 #include "core/posture/validity.h"
 #include "core/skeleton/joint_motion.h"
 #include "core/skeleton/kinematics.h"
@@ -24,17 +25,20 @@ struct PostureEvaluation {
   Eigen::MatrixXd moment_arm_m;             ///< unit x clinical coordinate; positive = the unit increases it
   Eigen::VectorXd normalized_fiber_length;  ///< passive equilibrium, by unit
   Eigen::VectorXd passive_force_N;          ///< along the tendon, by unit
-  Eigen::VectorXd passive_torque;           ///< sum over the units, by clinical coordinate [N m; N for translations]
+  Eigen::VectorXd structure_torque;         ///< of capsules and ligaments, by clinical coordinate [N m]
+  Eigen::VectorXd passive_torque;           ///< units and structures together, likewise [N m; N for translations]
   bool valid = false;                       ///< every constraint holds (core/rom/validity.h)
   ConstraintMargin first_to_fail;           ///< the constraint that is violated most, or would be the next
   std::vector<LengthMargin> margins;        ///< smallest first
   std::vector<std::string> coordinates_beyond_envelope;  ///< beyond the body's own stops
 };
 
-/// Everything at one posture.
-PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture);
+/// Everything at one posture. `structures`: Model::passive_moments; a body without has no structure torques.
+PostureEvaluation evaluatePosture(const Skeleton& skeleton, const Musculature& musculature, const Posture& posture,
+                                  const PassiveMoments& structures = {});
 
-/// Fibres, passive forces and torques of an evaluation that has lengths and moment arms.
+/// Fibres, passive forces and torques of an evaluation that has lengths and moment arms, and structure torques if
+/// any.
 void fillPassive(const Musculature& musculature, PostureEvaluation& evaluation);
 
 /// The torque about every clinical coordinate when all units that turn that way are fully active and hold still:

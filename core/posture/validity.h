@@ -9,7 +9,9 @@ namespace sinew {
 
 // isValid of Ryu et al. (Muscle-induced ROM): a posture is valid if every constraint C_i(q) >= 0. Constraints are the
 // longest length of every unit, C = 1.6 l0 + 1.03 l_slack - l(q), and the bony and ligament stops of every
-// coordinate, C = stop - q towards the nearer end.
+// coordinate, C = stop - q towards the nearer end: the angle that is left until the structures of that end alone -
+// capsule, ligament, bone - set their end moment against the joint (core/passive/structures.h). Short of a stop they
+// push back already, beyond it ever more; the margin says how far off the end is, not that nothing holds before.
 
 enum class ConstraintKind { MuscleLength, JointStop };
 

@@ -17,8 +17,8 @@ Eigen::VectorXd mirroredClinical(const Skeleton& skeleton, const Eigen::VectorXd
   for (int i = 0; i < int(clinical.size()); ++i) {
     const Coordinate& c = skeleton.coordinates[std::size_t(i)];
     const int other = mirroredCoordinate(skeleton, i);
-    // A turn about an axis in the plane of symmetry, or a shift across it, changes its sign; the axes of the two sides
-    // are each other's images already.
+    // A turn about an axis in the plane of symmetry, or a shift across it, changes its sign; the axes of the two
+    // sides are each other's images already.
     const Eigen::Vector3d axis = c.translational ? mirrored(c.axis) : mirroredAxis(c.axis);
     image[other] = other == i && axis.dot(c.axis) < 0 ? -clinical[i] : clinical[i];
   }

@@ -1,11 +1,12 @@
 #include <dcmtk/dcmdata/dcostrmb.h>
+#include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
 #include "core/file.h"
+#include "core/text.h"
 #include "imaging/radiograph/dicom_internal.h"
 #include "imaging/radiograph/radiograph.h"
 
@@ -14,13 +15,8 @@ namespace {
 
 /// Decimal string of DICOM: the shortest of at most 16 characters that is nearest to the value.
 std::string decimalString(double value) {
-  char digits[40];
-  for (int precision = 1; precision <= 16; ++precision) {
-    std::snprintf(digits, sizeof digits, "%.*g", precision, value);
-    if (std::strtod(digits, nullptr) == value) break;
-  }
-  for (int precision = 15; std::string_view{digits}.size() > 16; --precision)
-    std::snprintf(digits, sizeof digits, "%.*g", precision, value);
+  std::string digits = fmt::format("{}", value);  // the fewest that read back as the same number
+  for (int precision = 15; digits.size() > 16; --precision) digits = brief(value, precision);
   return digits;
 }
 

@@ -48,12 +48,6 @@ inline std::vector<View> slotScanPair() {
   return views;
 }
 
-/// Pixels per millimetre across the beam at a point.
-inline double pixelsPerMillimetre(const View& view, const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d step = view.R_CW.transpose() * Eigen::Vector3d{0.001, 0, 0};
-  return (*project(view, Eigen::Vector3d{p_W + step}) - *project(view, p_W)).norm();
-}
-
 /// Where the landmarks of a body appear in the views, with Gaussian picking noise of `noise_mm` in the plane of the
 /// body. The stated sigma is that noise, or 0.05 px if there is none.
 inline std::vector<LandmarkObservation> observe(const Skeleton& reference, const ShapeParameters& shape,

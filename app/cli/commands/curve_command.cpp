@@ -1,8 +1,9 @@
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "app/cli/support/commands.h"
-#include "app/plot/svg_plot.h"
+#include "app/plot/paint_figure.h"
 #include "app/plot/svg_to_png.h"
 #include "core/file.h"
 #include "core/foreign/foreign_evaluate.h"
@@ -54,11 +55,9 @@ std::string curveCsv(const MotionCurve& c) {
   std::string csv =
       "theta,angle_deg,length_m,moment_arm_m,normalized_fiber_length,passive_force_N,active_force_N,full_torque_Nm\n";
   for (std::size_t i = 0; i < c.theta.size(); ++i) {
-    char line[256];
-    std::snprintf(line, sizeof line, "%.6g,%.6g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g\n", c.theta[i], c.angle_deg[i],
-                  c.length_m[i], c.moment_arm_m[i], c.normalized_fiber_length[i], c.passive_force_N[i],
-                  c.active_force_N[i], c.full_torque_Nm[i]);
-    csv += line;
+    csv += fmt::format("{:.6g},{:.6g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.theta[i], c.angle_deg[i],
+                       c.length_m[i], c.moment_arm_m[i], c.normalized_fiber_length[i], c.passive_force_N[i],
+                       c.active_force_N[i], c.full_torque_Nm[i]);
   }
   return csv;
 }
@@ -70,11 +69,13 @@ std::vector<double> inMm(std::vector<double> values) {
 
 std::string curveSvg(const NamedCurve& of) {
   const MotionCurve& c = of.curve;
-  return plotSvg(of.muscle + ", " + of.motion.title + " (" + of.model + ")", of.motion.coordinate + " [deg]",
-                 c.angle_deg,
-                 {{"length [mm]", {{"length", inMm(c.length_m)}}},
-                  {"moment arm [mm]", {{"moment arm", inMm(c.moment_arm_m)}}},
-                  {"force [N]", {{"passive", c.passive_force_N}, {"active, full", c.active_force_N}}}});
+  const auto& x = c.angle_deg;
+  return svgOf({of.muscle + ", " + of.motion.title + " (" + of.model + ")",
+                of.motion.coordinate + " [deg]",
+                {{"length [mm]", {curveOver(x, inMm(c.length_m), "")}},
+                 {"moment arm [mm]", {curveOver(x, inMm(c.moment_arm_m), "")}},
+                 {"force [N]",
+                  {curveOver(x, c.passive_force_N, "passive"), curveOver(x, c.active_force_N, "active, full", 1)}}}});
 }
 
 /// The curve in the form that the file name asks for.

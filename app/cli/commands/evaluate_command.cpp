@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t kLimitingMuscles = 10;
 constexpr const char* kDefaultWhat = "lengths,validity,limiting_muscle";
-const std::vector<std::string> kQuantities = {"lengths",         "moment_arms",    "validity",
-                                              "limiting_muscle", "passive_torque", "peak_torque",
-                                              "fiber_lengths",   "passive_forces", "controllability"};
+const std::vector<std::string> kQuantities = {"lengths",        "moment_arms",      "validity",    "limiting_muscle",
+                                              "passive_torque", "structure_torque", "peak_torque", "fiber_lengths",
+                                              "passive_forces", "controllability"};
 /// Of these a foreign model knows nothing: it has no flexibility, and its coordinates are not ours.
 const std::vector<std::string> kOwnQuantities = {"validity", "limiting_muscle", "controllability"};
 
@@ -108,6 +108,7 @@ Json evaluationJson(const Names& names, const PostureEvaluation& e, const std::v
     if (quantity == "lengths") json["lengths_m"] = byUnit(musculature, e.length_m);
     if (quantity == "moment_arms") json["moment_arms_m"] = momentArmsJson(names, e.moment_arm_m);
     if (quantity == "passive_torque") json["passive_torque_Nm"] = torqueJson(names, e.passive_torque);
+    if (quantity == "structure_torque") json["structure_torque_Nm"] = torqueJson(names, e.structure_torque);
     if (quantity == "peak_torque") json["peak_torque_Nm"] = peakTorqueJson(names, isometricTorque(musculature, e));
     if (quantity == "fiber_lengths")
       json["normalized_fiber_lengths"] = byUnit(musculature, e.normalized_fiber_length);
@@ -117,7 +118,8 @@ Json evaluationJson(const Names& names, const PostureEvaluation& e, const std::v
 }
 
 Json postureJson(const Model& model, const NamedPosture& posture, const std::vector<std::string>& what) {
-  const PostureEvaluation e = evaluatePosture(model.skeleton, model.musculature, posture.posture);
+  const PostureEvaluation e =
+      evaluatePosture(model.skeleton, model.musculature, posture.posture, model.passive_moments);
   const Names names = namesOf(model.musculature, model.skeleton.coordinates);
   Json json{{"name", posture.name}};
   for (const auto& quantity : what) {
@@ -233,7 +235,8 @@ void addEvaluateCommand(Commands& commands) {
   command.add_option("--postures", o->postures, "JSON file of postures")->required();
   command.add_option(
       "--what", o->what,
-      "of lengths, moment_arms, validity, limiting_muscle, passive_torque, peak_torque (isometric, every "
+      "of lengths, moment_arms, validity, limiting_muscle, passive_torque (muscles, capsules and ligaments), "
+      "structure_torque (capsules and ligaments alone), peak_torque (isometric, every "
       "muscle that turns that way fully active), fiber_lengths, passive_forces, controllability (can "
       "activations turn every coordinate both ways, alone: residual 0 to 1, strength) [" +
           std::string{kDefaultWhat} + "; of an OpenSim file lengths]");

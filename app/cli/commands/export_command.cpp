@@ -11,6 +11,7 @@
 #include "core/io/osim/osim_reader.h"
 #include "core/io/osim/osim_writer.h"
 #include "core/muscle/muscle_path.h"
+#include "core/passive/structure_moments.h"
 
 namespace sinew {
 namespace {
@@ -47,23 +48,33 @@ LengthDeviation exportOsim(const Model& model, const ExportOptions& o) {
   return deviation;
 }
 
-/// The lengths that MuJoCo has with every joint and the patella's follower where they belong.
 LengthDeviation exportMjcf(const Model& model, const ExportOptions& o) {
   writeFileAtomically(o.output, mjcfText(model));
-  return lengthDeviation(model, foreignFromModel(model, {.blended = ForeignOptions::Blended::HeaviestAnchor,
-                                                         .patella = ForeignOptions::Patella::Quartic}));
+  return mjcfDeviation(model);
 }
 
 LengthDeviation exportJson(const Model& model, const ExportOptions& o, Session& session) {
   saveModel(model, o.output);
   const Model back = loadModel(o.output, session.reference());
-  return lengthDeviation(model, [&](const Posture& q) {
+  LengthDeviation deviation = lengthDeviation(model, [&](const Posture& q) {
     const auto X_WB = segmentPoses(back.skeleton, q);
     Eigen::VectorXd length_m(static_cast<Eigen::Index>(back.musculature.units.size()));
     for (Eigen::Index u = 0; u < length_m.size(); ++u)
       length_m[u] = pathLength(back.musculature.units[static_cast<std::size_t>(u)], X_WB);
     return length_m;
   });
+  deviation.structures = structureDeviation(
+      model, [&](const Posture& q) { return structureMoments_Nm(back.skeleton, back.passive_moments, q); });
+  return deviation;
+}
+
+Json structuresJson(const std::optional<StructureDeviation>& d) {
+  if (!d) return nullptr;
+  return {{"alone_Nm", d->alone_Nm},
+          {"alone_share", d->alone_share},
+          {"alone_coordinate", d->alone_coordinate},
+          {"random_Nm", d->random_Nm},
+          {"random_coordinate", d->random_coordinate}};
 }
 
 Json deviationJson(const LengthDeviation& deviation) {
@@ -76,9 +87,13 @@ Json deviationJson(const LengthDeviation& deviation) {
                      {"max_norm_m", u.max_norm_m},
                      {"median_random_m", u.median_random_m},
                      {"max_random_m", u.max_random_m}});
-  return {{"norm_postures", deviation.norm_postures}, {"random_postures", deviation.random_postures},
-          {"exact_units", deviation.exactUnits()},    {"median_of_maxima_m", deviation.medianOfMaxima_m()},
-          {"boxed_ranges", deviation.boxed_ranges},   {"units", units}};
+  return {{"norm_postures", deviation.norm_postures},
+          {"random_postures", deviation.random_postures},
+          {"exact_units", deviation.exactUnits()},
+          {"median_of_maxima_m", deviation.medianOfMaxima_m()},
+          {"boxed_ranges", deviation.boxed_ranges},
+          {"structures", structuresJson(deviation.structures)},
+          {"units", units}};
 }
 
 /// The units that are not exact, the worst first; ten of them unless all are wanted.

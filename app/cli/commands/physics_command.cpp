@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include "app/cli/support/commands.h"
 #include "app/cli/support/text_table.h"
@@ -18,6 +19,7 @@ struct ShapeOptions {
 struct PhysicsOptions {
   std::string model;
   std::vector<std::string> masses, mass_ratios, strengths, curves;
+  std::optional<double> age_years;
   std::filesystem::path output;
 };
 
@@ -100,6 +102,7 @@ PhysicsFactors editedFactors(const PhysicsOptions& o, PhysicsFactors factors) {
   mass("--mass-ratio", o.mass_ratios, factors.mass_ratios, factors.mass_factors);
   each("--strength", o.strengths,
        [&](const std::string& units, double value) { factors.strength_factors[units] = value; });
+  if (o.age_years) factors.age_years = o.age_years;
   return factors;
 }
 
@@ -120,7 +123,7 @@ ExitStatus editPhysics(const PhysicsOptions& o, Session& session) {
   const Model before = session.model(o.model);
   const auto edits = curveEdits(o);
   Model model = before;
-  if (!(o.masses.empty() && o.mass_ratios.empty() && o.strengths.empty()) || edits.empty())
+  if (!(o.masses.empty() && o.mass_ratios.empty() && o.strengths.empty() && !o.age_years) || edits.empty())
     model = withPhysics(model, session.reference(), editedFactors(o, before.physics.value_or(PhysicsFactors{})));
   model.musculature = withCurves(model.musculature, edits);
   saveModel(model, o.output);
@@ -150,14 +153,15 @@ void addShapeCommand(CLI::App& parent, Commands& commands) {
 
 void addPhysicsCommand(CLI::App& parent, Commands& commands) {
   auto o = std::make_shared<PhysicsOptions>();
-  auto& command = addCommand(parent, "physics",
-                             "masses, strengths and muscle curves of a model: by the scaling rules and by factors",
-                             "sinew model physics reference --mass trunk=1.2 --strength quadriceps=0.8 --curve "
-                             "soleus.active_width=0.5 -o M");
+  auto& command = addCommand(
+      parent, "physics", "masses, strengths, age and muscle curves of a model: by the scaling rules and by factors",
+      "sinew model physics reference --mass trunk=1.2 --strength quadriceps=0.8 --curve "
+      "soleus.active_width=0.5 -o M");
   command.add_option("MODEL", o->model, "model file, or reference, reference:athlete")->required();
   command.add_option("--mass", o->masses, "PART=FACTOR on the mass of the deformed volume");
   command.add_option("--mass-ratio", o->mass_ratios, "PART=RATIO to the mass of the reference");
   command.add_option("--strength", o->strengths, "MUSCLE|GROUP=RATIO to the force of the reference");
+  command.add_option("--age-years", o->age_years, "joints as lax as at this age")->check(CLI::Range(0.0, 120.0));
   command.add_option("--curve", o->curves,
                      "MUSCLE|GROUP.PARAMETER=NUMBER: active_width, passive_strain, passive_shape, tendon_strain, "
                      "max_velocity_1_s, max_lengthening");

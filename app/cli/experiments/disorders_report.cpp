@@ -4,8 +4,8 @@
 #include "app/cli/experiments/experiment.h"
 #include "app/cli/support/text_table.h"
 #include "app/experiments/disorders.h"
+#include "app/plot/paint_figure.h"
 #include "app/plot/svg_charts.h"
-#include "app/plot/svg_plot.h"
 #include "core/retarget/prepared/reference.h"
 
 namespace sinew {
@@ -131,15 +131,14 @@ std::string barsOf(const Disorders& found) {
 }
 
 std::string curvesOf(const Disorders& found) {
-  std::vector<double> elongations;
-  PlotLine naive{"without retargeting", {}}, retargeted{"retargeted", {}};
+  FigureCurve naive{"without retargeting", {}}, retargeted{"retargeted", {}, LineRole::Second};
   for (const DisorderRow& row : found.rows) {
-    elongations.push_back(100 * row.elongation);
-    naive.y.push_back(100 * mean(row.naive));
-    retargeted.y.push_back(100 * mean(row.retargeted));
+    naive.points.emplace_back(100 * row.elongation, 100 * mean(row.naive));
+    retargeted.points.emplace_back(100 * row.elongation, 100 * mean(row.retargeted));
   }
-  return plotSvg("Functional disorders over the length of the limbs", "length of the limb bones [%]", elongations,
-                 {{"reversed steps, mean of all units [%]", {naive, retargeted}}});
+  return svgOf({"Functional disorders over the length of the limbs",
+                "length of the limb bones [%]",
+                {{"reversed steps, mean of all units [%]", {naive, retargeted}}}});
 }
 
 }  // namespace

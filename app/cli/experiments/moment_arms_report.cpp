@@ -1,7 +1,7 @@
 #include "app/cli/experiments/experiment.h"
 #include "app/cli/support/text_table.h"
 #include "app/experiments/moment_arm_curves.h"
-#include "app/plot/svg_plot.h"
+#include "app/plot/paint_figure.h"
 #include "core/retarget/prepared/reference.h"
 #include "core/retarget/retarget.h"
 
@@ -83,12 +83,13 @@ ExperimentReport momentArmsReport(ExperimentContext& context) {
   Json list = Json::array();
   for (const MomentArmQuestion& question : paperMomentArms()) {
     const MomentArmFigure& figure = figures.emplace_back(momentArmFigure(context.reference(), others, question));
-    std::vector<PlotLine> lines;
+    FigurePanel panel{"moment arm [mm]"};
     std::vector<std::string> row = {question.muscle + ", " + figure.title};
     Json curves = Json::array();
     for (const MomentArmCurve& curve : figure.curves) {
-      PlotLine& line = lines.emplace_back(curve.body);
-      for (const double arm_m : curve.arm_m) line.y.push_back(kMm * arm_m);
+      std::vector<double> arm_mm;
+      for (const double arm_m : curve.arm_m) arm_mm.push_back(kMm * arm_m);
+      panel.curves.push_back(curveOver(figure.angle_deg, arm_mm, curve.body, panel.curves.size()));
       row.push_back(fixed(kMm * curve.mean_m, 1));
       curves.push_back({{"body", curve.body}, {"mean_m", curve.mean_m}, {"arm_m", curve.arm_m}});
     }
@@ -98,8 +99,7 @@ ExperimentReport momentArmsReport(ExperimentContext& context) {
                     {"angle_deg", figure.angle_deg},
                     {"curves", curves}});
     report.figures.push_back({"moment-arms-" + question.muscle,
-                              plotSvg(question.muscle + ", " + figure.title, figure.coordinate + " [deg]",
-                                      figure.angle_deg, {{"moment arm [mm]", lines}})});
+                              svgOf({question.muscle + ", " + figure.title, figure.coordinate + " [deg]", {panel}})});
   }
   std::vector<std::string> header = {"mean moment arm [mm]"};
   for (const MomentArmCurve& curve : figures.front().curves) header.push_back(curve.body);

@@ -1,26 +1,17 @@
-#include <cmath>
-
 #include "app/cli/experiments/experiment.h"
 #include "app/cli/support/text_table.h"
 #include "app/experiments/popliteal.h"
-#include "app/plot/svg_plot.h"
+#include "app/plot/paint_figure.h"
 
 namespace sinew {
 namespace {
 
 std::string figureOf(const std::vector<PoplitealRow>& rows) {
-  std::vector<double> angles_deg;
-  std::vector<PlotLine> lines;
-  for (const auto& [angle_deg, moment] : rows.front().moment_Nm) angles_deg.push_back(angle_deg);
-  for (const PoplitealRow& row : rows) {
-    PlotLine line{row.body, {}};
-    // Beyond twice the threshold nobody looks.
-    for (const auto& [angle_deg, moment] : row.moment_Nm)
-      line.y.push_back(moment <= 2 * kPoplitealThreshold_Nm ? moment : NAN);
-    lines.push_back(std::move(line));
-  }
-  return plotSvg("Net passive moment as the knee is extended, hip at 90 deg", "lack of extension [deg]", angles_deg,
-                 {{"moment against extension [N m]", lines}});
+  FigurePanel panel{"moment against extension [N m]"};
+  panel.highest = 2 * kPoplitealThreshold_Nm;  // beyond nobody looks
+  for (const PoplitealRow& row : rows)
+    panel.curves.push_back({row.body, row.moment_Nm, static_cast<LineRole>(panel.curves.size() % 5)});
+  return svgOf({"Net passive moment as the knee is extended, hip at 90 deg", "lack of extension [deg]", {panel}});
 }
 
 }  // namespace

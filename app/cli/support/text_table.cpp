@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace sinew {
 namespace {
@@ -32,14 +31,6 @@ std::string textTable(const std::vector<std::string>& header, const std::vector<
   };
   append(header);
   for (const auto& row : rows) append(row);
-  return text;
-}
-
-std::string fixed(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  if (std::string{text}.find_first_of("123456789") == std::string::npos && text[0] == '-') return text + 1;  // no -0
   return text;
 }
 

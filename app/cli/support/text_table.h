@@ -2,12 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "core/text.h"
+
 namespace sinew {
 
 /// Columns for a terminal: the first is set left, the others right; widths count characters, not bytes.
 std::string textTable(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
-
-/// "12.3", or "-" for NaN.
-std::string fixed(double value, int decimals);
 
 }  // namespace sinew

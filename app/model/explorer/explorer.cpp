@@ -77,7 +77,8 @@ void Explorer::mirror() {
 
 const PostureEvaluation& Explorer::evaluation() const {
   require(model_ != nullptr, "evaluation: no model");
-  if (!evaluation_) evaluation_ = evaluatePosture(model_->skeleton, model_->musculature, posture_);
+  if (!evaluation_)
+    evaluation_ = evaluatePosture(model_->skeleton, model_->musculature, posture_, model_->passive_moments);
   return *evaluation_;
 }
 

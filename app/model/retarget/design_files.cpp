@@ -21,9 +21,7 @@ void saveRanges(const RomEdits& edits, const std::filesystem::path& file) {
 std::string exportModel(const Model& model, const std::filesystem::path& file) {
   if (file.extension() == ".xml") {
     writeFileAtomically(file, mjcfText(model));
-    return summaryText(
-        lengthDeviation(model, foreignFromModel(model, {.blended = ForeignOptions::Blended::HeaviestAnchor,
-                                                        .patella = ForeignOptions::Patella::Quartic})));
+    return summaryText(mjcfDeviation(model));
   }
   if (file.extension() == ".osim") {
     const ForeignModel foreign = foreignFromModel(model);

@@ -65,6 +65,7 @@ std::shared_ptr<const Model> LiveBody::deformed(const ShapeParameters& shape) {
   auto model = std::make_shared<Model>(*last_);
   model->shape = shape;
   model->skeleton = deformedSkeleton(reference.skeleton, shape);
+  model->passive_moments = scaledStructures(reference.passive_moments, reference.skeleton, model->skeleton);
   const std::vector<double> parameters = toVector(shape);
   auto bones = std::make_shared<std::vector<BoneMesh>>(*last_->bones);
   for (std::size_t b = 0; b < bones->size(); ++b) {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "app/model/stage_text.h"
-#include "app/widgets/controls/curve_plot.h"
 #include "app/widgets/controls/theme.h"
+#include "core/figure.h"
 
 namespace sinew {
 namespace {

@@ -199,8 +199,18 @@ QWidget* JointPanel::makeRow(int coordinate) {
   return box;
 }
 
+/// What relaxed muscles and the joint's structures set against a turn at this posture.
+QString JointPanel::passiveText(int coordinate) const {
+  const PostureEvaluation& e = explorer_.evaluation();
+  const double structures_Nm = e.structure_torque[coordinate];
+  return tr("Passive moment: relaxed muscles %1 N m, capsule and ligaments %2 N m (positive: towards larger values)")
+      .arg(figure(e.passive_torque[coordinate] - structures_Nm, 1), figure(structures_Nm, 1));
+}
+
 void JointPanel::showPosture() {
   for (const Row& row : rows_) {
+    if (explorer_.model()->skeleton.coordinates[std::size_t(row.coordinate)].joint != 0)
+      row.value->setToolTip(passiveText(row.coordinate));
     const double shown = explorer_.clinical()[row.coordinate] * row.scale;
     const QSignalBlocker block_slider{row.slider}, block_value{row.value};
     if (!row.slider->isSliderDown()) row.slider->setValue(int(std::lround(10 * shown)));

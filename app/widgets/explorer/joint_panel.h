@@ -32,6 +32,7 @@ class JointPanel : public QWidget {
   void build();
   QWidget* makeJoint(int joint);
   QWidget* makeRow(int coordinate);
+  QString passiveText(int coordinate) const;
   void showPosture();
   void showRanges();
 

@@ -38,6 +38,10 @@ std::vector<std::pair<double, double>> overAngle(const MotionCurve& curve, const
   return points;
 }
 
+std::string text(const QString& words) {
+  return words.toStdString();
+}
+
 CurvePlot* makePlot(const QString& object_name) {
   auto* plot = new CurvePlot;
   plot->setObjectName(object_name);
@@ -59,9 +63,6 @@ MuscleCurves::MuscleCurves(Explorer& explorer, QWidget* parent) : QWidget{parent
   force_ = makePlot("force_length_plot");
   length_ = makePlot("length_angle_plot");
   arm_ = makePlot("moment_arm_plot");
-  force_->setAxes(tr("fibre length / optimal"), tr("force / maximal force"));
-  force_->setHighest(1.25);
-  length_->setFromZero(false);
   auto* all = new QWidget;
   auto* inner = new QVBoxLayout{all};
   inner->setContentsMargins(0, 0, 8, 0);
@@ -99,7 +100,7 @@ void MuscleCurves::refresh() {
                            : readableName(explorer_.model()->musculature.units[std::size_t(unit)].name));
   const QString hint = tr("Click a muscle in the model, or find it in the list.");
   if (unit < 0) {
-    for (auto* plot : {force_, length_, arm_}) plot->setCurves({}, {}, hint);
+    for (auto* plot : {force_, length_, arm_}) plot->setNothing(hint);
     return;
   }
   showForceLength(unit);
@@ -108,12 +109,14 @@ void MuscleCurves::refresh() {
 
 void MuscleCurves::showForceLength(int unit) {
   const HillCurves curves{explorer_.model()->musculature.units[std::size_t(unit)].curves};
-  const auto active = sampled([&](double l) { return curves.active(l); });
-  const auto passive = sampled([&](double l) { return curves.passive(l); });
   const double ratio = explorer_.evaluation().normalized_fiber_length[unit];
-  force_->setCurves(
-      {{tr("active"), active, colour::kPrimary, false}, {tr("passive"), passive, colour::kDanger, true}},
-      {{tr("now %1").arg(figure(ratio, 2)), ratio, colour::kText, false}}, {});
+  FigurePanel panel{text(tr("force / maximal force")),
+                    {{text(tr("active")), sampled([&](double l) { return curves.active(l); })},
+                     {text(tr("passive")), sampled([&](double l) { return curves.passive(l); }), LineRole::Alarm}},
+                    {{text(tr("now %1").arg(figure(ratio, 2))), ratio}}};
+  panel.from_zero = true;
+  panel.highest = 1.25;
+  force_->setPanel(std::move(panel), tr("fibre length / optimal"));
 }
 
 void MuscleCurves::showMotion() {
@@ -129,8 +132,8 @@ void MuscleCurves::showMotion() {
   }
   if (!motion) {
     const QString none = tr("No joint motion of the table shortens this muscle.");
-    length_->setCurves({}, {}, none);
-    arm_->setCurves({}, {}, none);
+    length_->setNothing(none);
+    arm_->setNothing(none);
     return;
   }
   if (const std::string key = u.name + ' ' + motion->name; key != curve_key_) {
@@ -141,16 +144,17 @@ void MuscleCurves::showMotion() {
   const double now_deg = explorer_.clinical()[model.skeleton.coordinateIndex(motion->coordinate)] / kRadPerDeg;
   const double low = std::min(motion->start_deg, motion->end_deg),
                high = std::max(motion->start_deg, motion->end_deg);
-  std::vector<PlotMark> now;
-  if (now_deg >= low && now_deg <= high)
-    now.push_back({tr("now %1°").arg(figure(now_deg, 0)), now_deg, colour::kText, false});
+  std::vector<FigureMark> now;
+  if (now_deg >= low && now_deg <= high) now.push_back({text(tr("now %1°").arg(figure(now_deg, 0))), now_deg});
   const QString x_title = tr("%1, degrees").arg(QString::fromStdString(motionWords(motion->coordinate, true)));
   auto limit = now;
-  limit.push_back({tr("longest"), 1000 * longestLength_m(u), colour::kDanger, true});
-  length_->setAxes(x_title, tr("length of the path, mm"));
-  length_->setCurves({{{}, overAngle(curve_, curve_.length_m, 1000), colour::kPrimary, false}}, limit, {});
-  arm_->setAxes(x_title, tr("moment arm, mm"));
-  arm_->setCurves({{{}, overAngle(curve_, curve_.moment_arm_m, 1000), colour::kPrimary, false}}, now, {});
+  limit.push_back({text(tr("longest")), 1000 * longestLength_m(u), LineRole::Alarm, true});
+  length_->setPanel(
+      {text(tr("length of the path, mm")), {{{}, overAngle(curve_, curve_.length_m, 1000)}}, std::move(limit)},
+      x_title);
+  FigurePanel arm{text(tr("moment arm, mm")), {{{}, overAngle(curve_, curve_.moment_arm_m, 1000)}}, std::move(now)};
+  arm.from_zero = true;
+  arm_->setPanel(std::move(arm), x_title);
 }
 
 }  // namespace sinew

@@ -35,8 +35,6 @@ Points overAngle(const MotionCurve& curve, const std::vector<double>& y, double 
   return points;
 }
 
-const QColor kReferenceColour = colour::kMuted, kNaiveColour{0xc4, 0x5a, 0x00}, kRetargetedColour = colour::kPrimary;
-
 }  // namespace
 
 FamilyCurves::FamilyCurves(QWidget* parent) : QWidget{parent} {
@@ -53,7 +51,6 @@ FamilyCurves::FamilyCurves(QWidget* parent) : QWidget{parent} {
   length_ = makePlot("family_length", tr("Length over the joint motion"));
   arm_ = makePlot("family_arm", tr("Moment arm over the joint motion"));
   torque_ = makePlot("family_torque", tr("Torque over the joint motion"));
-  length_->setFromZero(false);
   auto* all = new QWidget;
   auto* inner = new QVBoxLayout{all};
   inner->setContentsMargins(0, 0, 6, 0);
@@ -105,7 +102,7 @@ const JointMotion* FamilyCurves::chosenMotion() const {
 void FamilyCurves::draw() {
   title_->setText(unit_.empty() ? tr("No muscle chosen") : readableName(unit_));
   const auto nothing = [&](const QString& why) {
-    for (auto* plot : {length_, arm_, torque_}) plot->setCurves({}, {}, why);
+    for (auto* plot : {length_, arm_, torque_}) plot->setNothing(why);
   };
   if (!reference_ || unit_.empty())
     return nothing(tr("Click a muscle in the model or in the list below to compare it with the reference."));
@@ -116,35 +113,33 @@ void FamilyCurves::draw() {
   struct Body {
     QString name;
     const Model* model;
-    QColor color;
-    bool dashed;
+    LineRole role;
   };
-  std::vector<Body> bodies{{tr("reference"), &reference_->model(), kReferenceColour, true}};
+  std::vector<Body> bodies{{tr("reference"), &reference_->model(), LineRole::Before}};
   const bool is_reference = naive_ && naive_->shape == reference_->model().shape;
   // A naive body that has its masses and strengths, if there is one: torques then compare with the retargeted.
   if (body_ && !is_reference)
-    bodies.push_back({tr("naive"), body_->naive.get(), kNaiveColour, false});
+    bodies.push_back({tr("naive"), body_->naive.get(), LineRole::Second});
   else if (naive_ && !is_reference)
-    bodies.push_back({tr("naive"), naive_.get(), kNaiveColour, false});
+    bodies.push_back({tr("naive"), naive_.get(), LineRole::Second});
   if (body_)
-    bodies.push_back(
-        {is_reference ? tr("this body") : tr("retargeted"), body_->model.get(), kRetargetedColour, false});
-  std::vector<PlotCurve> lengths, arms, torques;
+    bodies.push_back({is_reference ? tr("this body") : tr("retargeted"), body_->model.get(), LineRole::First});
+  const auto panel = [](const QString& y_label) { return FigurePanel{y_label.toStdString()}; };
+  FigurePanel length = panel(tr("length, % of that at the start")), arm = panel(tr("moment arm, mm")),
+              torque = panel(tr("torque at full activation, N m"));
+  arm.from_zero = torque.from_zero = true;
   for (const Body& body : bodies) {
     const MotionCurve curve =
         motionCurve(body.model->skeleton, body.model->musculature.unit(unit_), *motion, kSamples);
     const double middle = curve.length_m[0] > 0 ? 100 / curve.length_m[0] : 0;
-    lengths.push_back({body.name, overAngle(curve, curve.length_m, middle), body.color, body.dashed});
-    arms.push_back({{}, overAngle(curve, curve.moment_arm_m, 1000), body.color, body.dashed});
-    torques.push_back({{}, overAngle(curve, curve.full_torque_Nm, 1), body.color, body.dashed});
+    length.curves.push_back({body.name.toStdString(), overAngle(curve, curve.length_m, middle), body.role});
+    arm.curves.push_back({{}, overAngle(curve, curve.moment_arm_m, 1000), body.role});
+    torque.curves.push_back({{}, overAngle(curve, curve.full_torque_Nm, 1), body.role});
   }
   const QString x_title = tr("%1, degrees").arg(QString::fromStdString(motionWords(motion->coordinate, true)));
-  length_->setAxes(x_title, tr("length, % of that at the start"));
-  arm_->setAxes(x_title, tr("moment arm, mm"));
-  torque_->setAxes(x_title, tr("torque at full activation, N m"));
-  length_->setCurves(std::move(lengths), {}, {});
-  arm_->setCurves(std::move(arms), {}, {});
-  torque_->setCurves(std::move(torques), {}, {});
+  length_->setPanel(std::move(length), x_title);
+  arm_->setPanel(std::move(arm), x_title);
+  torque_->setPanel(std::move(torque), x_title);
 }
 
 }  // namespace sinew

@@ -308,35 +308,36 @@ void ExamPage::refreshPlot() {
   if (id.empty()) return;
   const ExamTest& test = workspace().protocol().test(id);
   const char side = plot_side_->currentIndex() == 0 ? 'r' : 'l';
-  plot_->setAxes(tr("%1 [°]").arg(QString::fromStdString(test.title)), tr("Passive moment [N m]"));
   const auto model = workspace().patientModel();
   if (!model) {
-    plot_->setCurves({}, {}, tr("Fit the skeleton to see how the test feels before and after."));
+    plot_->setNothing(tr("Fit the skeleton to see how the test feels before and after."));
     verdict_->clear();
     return;
   }
   const Case& c = shownCase();
   const double threshold_Nm = thresholdOf(c, test, side);
-  std::vector<PlotCurve> curves;
+  const auto text = [](const QString& words) { return words.toStdString(); };
+  FigurePanel panel{text(tr("passive moment, N m"))};
   const ExamComparison* result = comparisonOf(c, id, side);
   if (result && !model->length_factors.empty()) {
     const Model before =
         modelBeforeExam(c, *workspace().reference(), workspace().document().folder(), workspace().resourceDir());
-    curves.push_back({tr("before"), passiveMomentCurve(before, test, side), colour::kMuted, true});
+    panel.curves.push_back({text(tr("before")), passiveMomentCurve(before, test, side), LineRole::Before});
   }
-  curves.push_back(
-      {curves.empty() ? tr("model") : tr("after"), passiveMomentCurve(*model, test, side), colour::kPrimary, false});
-  std::vector<PlotMark> marks{
-      {tr("stop at %1 N m").arg(figure(threshold_Nm, 0)), threshold_Nm, colour::kDanger, true}};
+  panel.curves.push_back(
+      {text(panel.curves.empty() ? tr("model") : tr("after")), passiveMomentCurve(*model, test, side)});
+  panel.marks.push_back(
+      {text(tr("stop at %1 N m").arg(figure(threshold_Nm, 0))), threshold_Nm, LineRole::Alarm, true});
   const ExamEntry* entry = findExamEntry(c, id, side);
   if (entry && entry->measured_deg)
-    marks.push_back(
-        {tr("measured %1").arg(degrees(*entry->measured_deg)), *entry->measured_deg, colour::kText, false});
-  plot_->setHighest(3 * threshold_Nm);
+    panel.marks.push_back({text(tr("measured %1").arg(degrees(*entry->measured_deg))), *entry->measured_deg});
+  panel.from_zero = true;
+  panel.highest = 3 * threshold_Nm;
   const bool norm = std::isfinite(test.norm_mean_deg) && std::isfinite(test.norm_sd_deg);
-  plot_->setBand(norm ? test.norm_mean_deg - 2 * test.norm_sd_deg : 0,
-                 norm ? test.norm_mean_deg + 2 * test.norm_sd_deg : 0, tr("norm ± 2 SD"));
-  plot_->setCurves(std::move(curves), std::move(marks), {});
+  if (norm)
+    panel.band = {test.norm_mean_deg - 2 * test.norm_sd_deg, test.norm_mean_deg + 2 * test.norm_sd_deg,
+                  text(tr("norm ± 2 SD"))};
+  plot_->setPanel(std::move(panel), tr("%1, degrees").arg(QString::fromStdString(test.title)));
 
   QStringList changes;
   if (result)

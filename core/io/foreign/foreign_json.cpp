@@ -6,6 +6,7 @@
 
 #include "core/file.h"
 #include "core/io/osim/osim_reader.h"
+#include "core/model/passive_json.h"
 #include "core/model/skeleton_json.h"
 
 namespace sinew {
@@ -77,7 +78,7 @@ class Reader {
   ForeignModel read() {
     json_.expectFormat("sinew.foreign_model", 1);
     json_.allowOnly({"format", "version", "name", "source", "credits", "gravity_m_s2", "bodies", "coordinates",
-                     "joints", "couplings", "wrap_objects", "muscles", "warnings"});
+                     "joints", "couplings", "coordinate_forces", "wrap_objects", "muscles", "warnings"});
     model_.name = json_["name"].text();
     model_.source = json_["source"].text();
     model_.credits = json_["credits"].text();
@@ -86,6 +87,8 @@ class Reader {
     for (const auto& c : json_["coordinates"].items()) coordinate(c);
     for (const auto& j : json_["joints"].items()) joint(j);
     for (const auto& c : json_["couplings"].items()) coupling(c);
+    if (const auto forces = json_.find("coordinate_forces"))  // files of before have none
+      for (const auto& f : forces->items()) coordinateForce(f);
     for (const auto& w : json_["wrap_objects"].items()) wrapObject(w);
     for (const auto& m : json_["muscles"].items()) muscle(m);
     model_.warnings = warningsFromJson(json_["warnings"]);
@@ -156,6 +159,18 @@ class Reader {
     if (std::ranges::find(c.value.terms, c.dependent, &CoordinateFunction::Term::coordinate) != c.value.terms.end())
       json["value"].fail("a function of other coordinates");
     model_.couplings.push_back(std::move(c));
+  }
+
+  void coordinateForce(const JsonReader& json) {
+    json.allowOnly({"name", "coordinate", "limit", "exponential"});
+    ForeignCoordinateForce force{json["name"].text(), names_.coordinate(json["coordinate"]), {}};
+    if (const auto limit = json.find("limit"))
+      force.law = CoordinateLimit{(*limit)["upper"].number(), (*limit)["upper_stiffness"].number(),
+                                  (*limit)["lower"].number(), (*limit)["lower_stiffness"].number(),
+                                  (*limit)["transition"].number()};
+    else
+      force.law = passiveMomentFromJson(json["exponential"]);
+    model_.coordinate_forces.push_back(std::move(force));
   }
 
   void wrapObject(const JsonReader& json) {

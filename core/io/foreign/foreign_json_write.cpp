@@ -1,4 +1,5 @@
 #include "core/io/foreign/foreign_json.h"
+#include "core/model/passive_json.h"
 #include "core/model/skeleton_json.h"
 
 namespace sinew {
@@ -69,6 +70,19 @@ Json jointJson(const Names& names, const ForeignJoint& j) {
           {"coordinates", coordinates}};
 }
 
+Json forceJson(const Names& names, const ForeignCoordinateForce& f) {
+  Json json{{"name", f.name}, {"coordinate", names.coordinate(f.coordinate)}};
+  if (const auto* limit = std::get_if<CoordinateLimit>(&f.law))
+    json["limit"] = {{"upper", limit->upper},
+                     {"upper_stiffness", limit->upper_stiffness},
+                     {"lower", limit->lower},
+                     {"lower_stiffness", limit->lower_stiffness},
+                     {"transition", limit->transition}};
+  else
+    json["exponential"] = passiveMomentToJson(std::get<PassiveMoment>(f.law));
+  return json;
+}
+
 Json pointJson(const Names& names, const ForeignPathPoint& p) {
   Json json{{"name", p.name}, {"body", names.body(p.body)}};
   if (!p.X_BF.isApprox(RigidTransform::Identity(), 0)) json["frame"] = toJson(p.X_BF);
@@ -109,7 +123,8 @@ Json foreignModelToJson(const ForeignModel& model) {
             {"source", model.source},
             {"credits", model.credits},
             {"gravity_m_s2", vectorToJson(model.gravity_W_m_s2)}};
-  for (const char* list : {"bodies", "coordinates", "joints", "couplings", "wrap_objects", "muscles"})
+  for (const char* list :
+       {"bodies", "coordinates", "joints", "couplings", "coordinate_forces", "wrap_objects", "muscles"})
     json[list] = Json::array();
   for (const auto& b : model.bodies)
     json["bodies"].push_back({{"name", b.name},
@@ -127,6 +142,7 @@ Json foreignModelToJson(const ForeignModel& model) {
   for (const auto& c : model.couplings)
     json["couplings"].push_back(
         {{"name", c.name}, {"dependent", names.coordinate(c.dependent)}, {"value", names.function(c.value)}});
+  for (const auto& f : model.coordinate_forces) json["coordinate_forces"].push_back(forceJson(names, f));
   for (const auto& w : model.wrap_objects)
     json["wrap_objects"].push_back({{"name", w.name},
                                     {"body", names.body(w.body)},

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/foreign/foreign_from_model.h"
+#include "core/io/mjcf/mjcf_structures_internal.h"
 
 namespace sinew {
 namespace {
@@ -60,7 +61,8 @@ class MjcfWriter {
   explicit MjcfWriter(const Model& model)
       : skeleton_{model.skeleton},
         segments_{segmentsWithDrivenMass(model.skeleton)},
-        units_{model.musculature.units} {
+        units_{model.musculature.units},
+        structures_{mjcfStructures(model, "    ")} {
     text_ = "<mujoco model=\"" + escaped(model.name) + "\">\n" +
             "  <compiler angle=\"radian\" coordinate=\"local\"/>\n"
             "  <option timestep=\"0.001\" gravity=\"0 -9.81 0\"/>\n"
@@ -214,12 +216,14 @@ class MjcfWriter {
                "\" lmax=\"" + number(longest) + "\" vmax=\"" + number(hill.max_velocity_1_s) + "\" fpmax=\"" +
                number(2.0 / 3) + "\" fvmax=\"" + number(hill.max_lengthening) + "\"/>\n";
     }
+    text_ += structures_;
     text_ += "  </actuator>\n";
   }
 
   const Skeleton& skeleton_;
   const std::vector<Segment> segments_;  ///< driven bones with their mass
   const std::vector<MusculotendonUnit>& units_;
+  const std::string structures_;  ///< actuators after the muscles
   std::string text_;
 };
 
@@ -227,6 +231,15 @@ class MjcfWriter {
 
 std::string mjcfText(const Model& model) {
   return MjcfWriter{model}.text();
+}
+
+LengthDeviation mjcfDeviation(const Model& model) {
+  LengthDeviation deviation =
+      lengthDeviation(model, foreignFromModel(model, {.blended = ForeignOptions::Blended::HeaviestAnchor,
+                                                      .patella = ForeignOptions::Patella::Quartic}));
+  deviation.structures =
+      structureDeviation(model, [&](const Posture& q) { return mjcfStructureMoments_Nm(model, q); });
+  return deviation;
 }
 
 }  // namespace sinew

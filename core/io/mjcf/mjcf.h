@@ -1,12 +1,14 @@
 #pragma once
 #include <string>
 
+#include "core/foreign/length_deviation.h"
 #include "core/model/model.h"
 
 namespace sinew {
 
 /// The model as MuJoCo XML (MJCF, read by MuJoCo 2.2 and later). Y is up; metres, radians. Bodies, masses, inertias,
-/// joints and their limits, path points as sites, units as spatial tendons with muscle actuators.
+/// joints and their limits, path points as sites, units as spatial tendons with muscle actuators, passive structures
+/// as actuators that need no control.
 ///
 /// Exact: bodies and joints, units anchored to one segment a point. MuJoCo cannot express the rest, so the nearest
 /// that it has stands in:
@@ -17,9 +19,15 @@ namespace sinew {
 /// - the wrist ball is pronation (ulna to radius) and two hinges (radius to hand). The hand is exact; the radius
 ///   turns by the clinical pronation instead of the wrist's twist, the same while flexion or deviation is zero;
 /// - a ball joint's limit is one cone: the largest turn in the athlete envelope;
+/// - passive structures are exponentials of four straight pieces, within 2.5 % of the end's moment; about a ball
+/// joint
+///   of the components of its rotation vector instead of the clinical angles (mjcf_structures_internal.h);
 /// - MuJoCo's muscle has no pennation and a rigid tendon: force F_max cos(pennation). Its curves are others than
 ///   Thelen's; they take the unit's passive strain, fastest shortening and lengthening force, and lose half of the
 ///   active force where ours does on the short side.
 std::string mjcfText(const Model& model);
+
+/// How far that is from ours: lengths of pinned points with the patella at its quartic, moments of the structures.
+LengthDeviation mjcfDeviation(const Model& model);
 
 }  // namespace sinew

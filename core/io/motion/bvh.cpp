@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 
 namespace sinew {
 namespace {
@@ -154,11 +154,7 @@ BvhMotion loadBvh(const std::filesystem::path& file) {
 }
 
 std::string bvhText(const BvhMotion& motion) {
-  const auto number = [](double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return std::string{text};
-  };
+  const auto number = [](double value) { return brief(value, 9); };
   std::string text = "HIERARCHY\n";
   std::vector<int> rows;  // of the channels, in the order in which the joints are written
   const auto write = [&](const auto& self, int index, const std::string& indent) -> void {

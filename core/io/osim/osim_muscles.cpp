@@ -74,12 +74,14 @@ void OsimReader::readMuscles() {
     const bool muscle = force.has("GeometryPath") && force.has("max_isometric_force") && force.tag() != "Ligament";
     if (muscle)
       readMuscle(force);
-    else
+    else if (!readCoordinateForce(force))
       others[force.tag()].push_back(force.name());
   }
   for (const auto& [tag, names] : others)
     warn("osim_force",
-         std::to_string(names.size()) + " " + tag + " left out, no muscle with a path of points: " + listed(names));
+         std::to_string(names.size()) + " " + tag +
+             " left out, neither a muscle with a path of points nor a force of a coordinate that is known: " +
+             listed(names));
 }
 
 void OsimReader::readMuscle(const XmlElement& muscle) {

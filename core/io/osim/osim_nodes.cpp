@@ -1,16 +1,14 @@
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string_view>
 
 #include "core/io/osim/osim_nodes_internal.h"
+#include "core/text.h"
 
 namespace sinew::osim {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value == 0 ? 0.0 : value);
-  return text;
+  return brief(value, 17);
 }
 
 void leaf(Node parent, const char* tag, const std::string& text) {

@@ -48,6 +48,9 @@ class OsimReader {
   CoordinateFunction functionElement(const XmlElement& element, const std::vector<int>& coordinates, int depth = 0);
   ScalarFunction splineElement(const XmlElement& element);
 
+  // osim_forces.cpp
+  bool readCoordinateForce(const XmlElement& force);
+
   // osim_muscles.cpp
   void readWrapObjects(const XmlElement& owner, int body);
   void readWrapObject(const XmlElement& object, int body);

@@ -5,6 +5,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/angle.h"
+#include "core/io/osim/osim_forces_internal.h"
 #include "core/io/osim/osim_nodes_internal.h"
 
 namespace sinew {
@@ -66,6 +68,9 @@ class OsimWriter {
     for (std::size_t i = 0; i < names.size(); ++i) coupling(constraints, model_.couplings[i], names[i]);
     Node forces = openSet(model, "ForceSet", "forceset");
     for (std::size_t i = 0; i < muscles_.size(); ++i) muscle(forces, i);
+    const auto force_names = legalNames(model_.coordinate_forces, &ForeignCoordinateForce::name);
+    for (std::size_t i = 0; i < force_names.size(); ++i)
+      coordinateForce(forces, model_.coordinate_forces[i], force_names[i]);
     for (const char* set : {"MarkerSet", "ContactGeometrySet", "ProbeSet", "ComponentSet"}) {
       std::string name = set;
       std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -231,6 +236,23 @@ class OsimWriter {
     leaf(node, "KshapePassive", "5");
     leaf(node, "Af", "0.25");
     leaf(node, "Flen", "1.4");
+  }
+
+  /// Our law as an expression of the coordinate, exactly; OpenSim's own limit as what it was.
+  void coordinateForce(Node forces, const ForeignCoordinateForce& force, const std::string& name) {
+    const auto c = static_cast<std::size_t>(force.coordinate);
+    const auto* limit = std::get_if<CoordinateLimit>(&force.law);
+    Node node = named(forces, limit ? "CoordinateLimitForce" : "ExpressionBasedCoordinateForce", name);
+    leaf(node, "appliesForce", "true");
+    leaf(node, "coordinate", coordinates_[c]);
+    if (!limit) return leaf(node, "expression", expressionOf(std::get<PassiveMoment>(force.law)));
+    const double unit = model_.coordinates[c].translational ? 1 : kRadPerDeg;
+    leaf(node, "upper_stiffness", number(limit->upper_stiffness * unit));
+    leaf(node, "upper_limit", number(limit->upper / unit));
+    leaf(node, "lower_stiffness", number(limit->lower_stiffness * unit));
+    leaf(node, "lower_limit", number(limit->lower / unit));
+    leaf(node, "damping", "0");
+    leaf(node, "transition", number(limit->transition / unit));
   }
 
   void path(Node muscle, std::size_t index) {

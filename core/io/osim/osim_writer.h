@@ -20,8 +20,8 @@ struct OsimOptions {
 /// The model as an OpenSim document, version 40000 (read by OpenSim 4.0 and later). Y up, metres, radians, newtons.
 /// Bodies, CustomJoints between offset frames, coordinates with ranges, couplings as CoordinateCouplerConstraints,
 /// paths with fixed, moving and conditional points, wrap objects, muscles with Thelen's curves as ours are, or
-/// Millard's with OpenSim's defaults. Names get underscores where OpenSim forbids a character, and numbers where two
-/// were the same.
+/// Millard's with OpenSim's defaults; passive structures as an ExpressionBasedCoordinateForce of every coordinate,
+/// exactly. Names get underscores where OpenSim forbids a character, and numbers where two were the same.
 std::string osimText(const ForeignModel& model, const OsimOptions& options = {});
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 #include "core/rom/edit/rom_edit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,17 +50,13 @@ std::vector<std::pair<std::string, Eigen::Vector3d>> namedAxes(const Skeleton& s
 
 void checkFactor(double factor, const char* field, const std::string& where) {
   if (!(factor >= kLeastRomFactor && factor <= kMostRomFactor)) {
-    char found[32];
-    std::snprintf(found, sizeof found, "%g", factor);
-    throw InputError{{where, field, "a factor from 0.05 to 5", found}};
+    throw InputError{{where, field, "a factor from 0.05 to 5", brief(factor)}};
   }
 }
 
 void checkAngle(double angle_rad, const char* field, const std::string& where) {
   if (!(std::abs(angle_rad) <= kPi)) {
-    char found[32];
-    std::snprintf(found, sizeof found, "%g", angle_rad * 180 / kPi);
-    throw InputError{{where, field, "an angle from -180 to 180 degrees", found}};
+    throw InputError{{where, field, "an angle from -180 to 180 degrees", brief(angle_rad * 180 / kPi)}};
   }
 }
 
@@ -137,21 +135,17 @@ int twistSign(const Skeleton& skeleton, int joint) {
 
 std::string inWords(const RomEdit& e) {
   std::string words;
-  const auto add = [&](const char* format, double value) {
-    char text[96];
-    std::snprintf(text, sizeof text, format, value);
-    words += (words.empty() ? "" : ", ") + std::string{text};
-  };
+  const auto add = [&](std::string part) { words += (words.empty() ? "" : ", ") + std::move(part); };
   constexpr double kDeg = 180 / kPi;
-  if (e.range_factor != 1) add("range x %.3g", e.range_factor);
-  if (e.shift_rad != 0) add("shifted %+.3g deg", e.shift_rad * kDeg);
-  if (e.cone_factor != 1) add("cone x %.3g", e.cone_factor);
+  if (e.range_factor != 1) add(fmt::format("range x {:.3g}", e.range_factor));
+  if (e.shift_rad != 0) add(fmt::format("shifted {:+.3g} deg", e.shift_rad * kDeg));
+  if (e.cone_factor != 1) add(fmt::format("cone x {:.3g}", e.cone_factor));
   if (e.tilt.angle_rad != 0) {
-    add("tilted %.3g deg ", e.tilt.angle_rad * kDeg);
+    add(fmt::format("tilted {:.3g} deg ", e.tilt.angle_rad * kDeg));
     words += e.tilt.towards.empty() ? "about an axis" : e.tilt.towards;
   }
-  if (e.twist_factor != 1) add("twist x %.3g", e.twist_factor);
-  if (e.twist_shift_rad != 0) add("twist shifted %+.3g deg", e.twist_shift_rad * kDeg);
+  if (e.twist_factor != 1) add(fmt::format("twist x {:.3g}", e.twist_factor));
+  if (e.twist_shift_rad != 0) add(fmt::format("twist shifted {:+.3g} deg", e.twist_shift_rad * kDeg));
   return e.joint + ": " + (words.empty() ? "unchanged" : words);
 }
 

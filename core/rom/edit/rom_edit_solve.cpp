@@ -212,6 +212,7 @@ RomEditResult RomEditSolver::solve(const RomEdits& edits, const RomEditOptions& 
     for (std::size_t slice = 0; slice < goal.cells->held().size(); ++slice)
       result.cells.push_back(countedCells(reference.skeleton, goal, allowed, slice));
   }
+  result.model.passive_moments = movedToStops(std::move(result.model.passive_moments), result.model.skeleton);
   return result;
 }
 

@@ -1,8 +1,9 @@
 #include "core/rom/poses/length_estimation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -158,12 +159,10 @@ std::string lengthsCsv(const std::vector<LengthEstimate>& estimates, const std::
   const auto up = [](double length_m) { return std::ceil(length_m * 1e7) * 1e-7; };
   for (const LengthEstimate& e : estimates) {
     if (!e.unit.ends_with("_r")) continue;
-    char line[256];
-    std::snprintf(line, sizeof line, "%s,%.7f,%.7f,%.5f,%.5f,%.3f,%.3f,%s,%.3f,%.3f,%.3f\n", e.unit.c_str(),
-                  up(e.optimal_fiber_length_m), up(e.tendon_slack_length_m), e.longest_path_m, e.shortest_path_m,
-                  e.scale, e.ratio, e.relaxed ? "yes" : "no", e.resting_normalized_fiber, e.shortest_normalized_fiber,
-                  e.longest_normalized_fiber);
-    csv += line;
+    csv += fmt::format("{},{:.7f},{:.7f},{:.5f},{:.5f},{:.3f},{:.3f},{},{:.3f},{:.3f},{:.3f}\n", e.unit,
+                       up(e.optimal_fiber_length_m), up(e.tendon_slack_length_m), e.longest_path_m, e.shortest_path_m,
+                       e.scale, e.ratio, e.relaxed ? "yes" : "no", e.resting_normalized_fiber,
+                       e.shortest_normalized_fiber, e.longest_normalized_fiber);
   }
   return csv;
 }

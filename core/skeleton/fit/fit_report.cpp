@@ -19,9 +19,9 @@ std::string rounded(double value) {
   return text.data();
 }
 
-void requireUsable(const LandmarkObservation& o, std::span<const View> views) {
-  if (o.view < 0 || o.view >= static_cast<int>(views.size()))
-    throw InputError{{"sightings", o.landmark, "a view from 1 to " + std::to_string(views.size()),
+void requireUsable(const LandmarkObservation& o, std::size_t view_count) {
+  if (o.view < 0 || o.view >= static_cast<int>(view_count))
+    throw InputError{{"sightings", o.landmark, "a view from 1 to " + std::to_string(view_count),
                       "view " + std::to_string(o.view + 1)}};
   if (!o.uv_px.allFinite() || !(o.sigma_px > 0) || !std::isfinite(o.sigma_px))
     throw InputError{{"sightings", o.landmark, "finite pixel coordinates and sigma > 0", "something else"}};
@@ -59,7 +59,7 @@ void warnOfLandmarksSeenOnce(const SightingList& list, std::size_t view_count, W
 
 }  // namespace
 
-SightingList usableSightings(const Skeleton& reference, std::span<const View> views,
+SightingList usableSightings(const Skeleton& reference, std::size_t view_count,
                              std::span<const LandmarkObservation> observations) {
   std::vector<std::string> known;
   for (const auto& landmark : reference.landmarks) known.push_back(landmark.name);
@@ -67,7 +67,7 @@ SightingList usableSightings(const Skeleton& reference, std::span<const View> vi
   std::map<int, int> point_of;
   std::set<std::string> complained;
   for (const auto& o : observations) {
-    requireUsable(o, views);
+    requireUsable(o, view_count);
     const auto at = std::ranges::find(known, o.landmark);
     const bool first = complained.insert(o.landmark).second;
     if (at == known.end()) {
@@ -91,21 +91,14 @@ SightingList usableSightings(const Skeleton& reference, std::span<const View> vi
   if (list.items.empty())
     throw InputError{{"sightings", "", "at least one landmark of the skeleton, such as femoral_head_center_r",
                       observations.empty() ? "none" : list.warnings.front().message}};
-  warnOfLandmarksSeenOnce(list, views.size(), list.warnings);
+  warnOfLandmarksSeenOnce(list, view_count, list.warnings);
   return list;
 }
 
-void describeResiduals(const SightingList& sightings, std::span<const View> views,
-                       std::span<const Eigen::Vector3d> points, SkeletonFit& fit) {
+void describeResiduals(const SightingList& sightings, SkeletonFit& fit) {
   double sum_px2 = 0;
-  for (const auto& s : sightings.items) {
-    LandmarkResidual residual{s.landmark, s.view, Eigen::Vector2d::Zero(), 0};
-    if (const auto uv = project(views[s.view], points[s.point])) residual.residual_px = s.uv_px - *uv;
-    residual.sigmas = residual.residual_px.norm() / s.sigma_px;
-    sum_px2 += residual.residual_px.squaredNorm();
-    fit.residuals.push_back(residual);
-  }
-  fit.rms_px = std::sqrt(sum_px2 / static_cast<double>(sightings.items.size()));
+  for (const auto& residual : fit.residuals) sum_px2 += residual.residual_px.squaredNorm();
+  fit.rms_px = std::sqrt(sum_px2 / static_cast<double>(fit.residuals.size()));
 
   std::vector<std::size_t> worst;
   constexpr double kDoubtful_sigma = 5;
@@ -126,15 +119,13 @@ void describeResiduals(const SightingList& sightings, std::span<const View> view
                                            (sightings.items[i].left_out ? " and was left out" : "")});
   }
 
-  std::vector<double> sigmas;
-  for (const auto& r : fit.residuals) sigmas.push_back(r.sigmas);
-  std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<long>(sigmas.size() / 2));
-  constexpr double kMedianOfRayleigh = 1.1774, kDoubtful = 1.5;
-  const double factor = sigmas[sigmas.size() / 2] / kMedianOfRayleigh;
-  if (factor > kDoubtful)
-    fit.warnings.push_back({"residuals_exceed_sigma", "residuals are " + rounded(factor) +
-                                                          " times the stated picking error: the intervals are too "
-                                                          "narrow by about that factor"});
+  constexpr double kDoubtful = 1.5;
+  if (fit.pick_scale.pick > kDoubtful)
+    fit.warnings.push_back(
+        {"residuals_exceed_sigma",
+         "the picks scatter " + rounded(fit.pick_scale.pick) +
+             " times as much as stated, after movement and geometry were allowed for: are the views "
+             "of one patient, and the geometry theirs? The intervals are widened by that factor"});
 }
 
 std::vector<bool> undeterminedUnknowns(const BodyParameters& body, const Eigen::MatrixXd& covariance, double ratio) {

@@ -26,13 +26,12 @@ struct SightingList {
 
 /// Checks and sorts what was observed. @throws InputError for a view that does not exist, numbers that are not
 /// finite, sigma <= 0, or if nothing usable remains.
-SightingList usableSightings(const Skeleton& reference, std::span<const View> views,
+SightingList usableSightings(const Skeleton& reference, std::size_t view_count,
                              std::span<const LandmarkObservation> observations);
 
-/// Residuals, rms_px, and warnings "outlier" (worst first) and "residuals_exceed_sigma". `points` in the order of
-/// the list's landmarks.
-void describeResiduals(const SightingList& sightings, std::span<const View> views,
-                       std::span<const Eigen::Vector3d> points, SkeletonFit& fit);
+/// From fit.residuals, in the order of the list: rms_px, and warnings "picks_disagree", "outlier" (worst first) and
+/// "residuals_exceed_sigma".
+void describeResiduals(const SightingList& sightings, SkeletonFit& fit);
 
 /// Entries of z whose SD stays above `ratio` of the prior's.
 std::vector<bool> undeterminedUnknowns(const BodyParameters& body, const Eigen::MatrixXd& covariance, double ratio);

@@ -3,10 +3,11 @@
 #include <ceres/evaluation_callback.h>
 #include <ceres/jet.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/geometry/view.h"
+#include "core/skeleton/fit/fit_nuisances_internal.h"
 #include "core/skeleton/shape/body_parameters_internal.h"
 
 namespace sinew {
@@ -22,79 +23,74 @@ struct PosedPoints {
 PosedPoints posePoints(const Skeleton& skeleton, const BodyParameters& body, std::span<const int> landmarks,
                        const Eigen::VectorXd& z, std::span<const int> active);
 
-/// The body that all residuals of a solve share: posed once for every step the solver tries. The solver's only
-/// parameter block x holds the entries `active` of z; the others stay as they are in `z`.
+/// What does not change while the fit looks for the body.
+struct FitModel {
+  const Skeleton& skeleton;
+  const BodyParameters& body;
+  std::span<const FitView> views;
+  const Nuisances& nuisances;
+  std::vector<int> landmarks;                         ///< indices into skeleton.landmarks
+  Eigen::Vector3d pivot_W = Eigen::Vector3d::Zero();  ///< middle of the body, about which it turns between exposures
+};
+
+/// The body that all residuals of a solve share: posed once for every step the solver tries and every exposure whose
+/// posture differs. The solver's only parameter block x holds the entries `active` of z, the others stay as they are,
+/// and then, if `nuisances_free`, all of y.
 class SharedBody : public ceres::EvaluationCallback {
  public:
-  SharedBody(const Skeleton& skeleton, const BodyParameters& body, std::vector<int> landmarks,
-             std::vector<int> active, Eigen::VectorXd z)
-      : skeleton_{skeleton},
-        body_{body},
-        landmarks_{std::move(landmarks)},
-        active_{std::move(active)},
-        z_{std::move(z)} {
-    x_.resize(active_.size());
-    for (std::size_t i = 0; i < active_.size(); ++i) x_[i] = z_[active_[i]];
-  }
+  SharedBody(const FitModel& model, std::vector<int> active, Eigen::VectorXd z, Eigen::VectorXd y,
+             bool nuisances_free);
 
   double* x() { return x_.data(); }
+  int size() const { return static_cast<int>(x_.size()); }
   int activeCount() const { return static_cast<int>(active_.size()); }
-  const std::vector<int>& active() const { return active_; }
-  const PosedPoints& points() const { return points_; }
+  const FitModel& model() const { return model_; }
+  bool nuisancesFree() const { return nuisances_free_; }
+  /// Landmarks as posed in an exposure, before the whole body moved.
+  const PosedPoints& points(int exposure) const { return points_[shares_posture_[exposure] ? 0 : exposure]; }
+  const DisturbedView& view(int index) const { return disturbed_[index]; }
+  /// Column of x that holds this entry of z; -1 if it is not active.
+  int columnOf(int z) const { return column_of_[z]; }
 
-  /// z with the solver's values.
-  Eigen::VectorXd z() const {
-    Eigen::VectorXd z = z_;
-    for (std::size_t i = 0; i < active_.size(); ++i) z[active_[i]] = x_[i];
-    return z;
-  }
+  Eigen::VectorXd z() const;  ///< with the solver's values
+  Eigen::VectorXd y() const;
 
-  void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
-    if (!new_evaluation_point && !(evaluate_jacobians && points_.dp_dz.empty())) return;
-    points_ = posePoints(skeleton_, body_, landmarks_, z(), evaluate_jacobians ? active_ : std::vector<int>{});
-  }
+  void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override;
 
  private:
-  const Skeleton& skeleton_;
-  const BodyParameters& body_;
-  std::vector<int> landmarks_, active_;
-  Eigen::VectorXd z_;
+  const FitModel& model_;
+  std::vector<int> active_, column_of_;
+  Eigen::VectorXd z_, y_;
+  bool nuisances_free_;
   std::vector<double> x_;
-  PosedPoints points_;
+  std::vector<bool> shares_posture_;  ///< by exposure: no joint has moved, none can
+  std::vector<DisturbedView> disturbed_;
+  std::vector<PosedPoints> points_;  ///< by exposure; of those that share a posture the first
 };
 
-/// residual [-] = (observed - projected) / sigma, two components. A point behind the source refuses the step.
-class SightingCost : public ceres::CostFunction {
- public:
-  SightingCost(const SharedBody& body, int point, const View& view, const Eigen::Vector2d& uv_px, double sigma_px)
-      : body_{body}, point_{point}, view_{view}, uv_px_{uv_px}, sigma_px_{sigma_px} {
-    set_num_residuals(2);
-    mutable_parameter_block_sizes()->push_back(body.activeCount());
-  }
+/// One sighting among those of a landmark.
+struct SeenPoint {
+  int view = 0;
+  Eigen::Vector2d uv_px;
+};
 
-  bool Evaluate(const double* const*, double* residuals, double** jacobians) const override {
-    using Jet = ceres::Jet<double, 3>;
-    const Eigen::Vector3d& p = body_.points().p_W[point_];
-    const Vector3<Jet> p_W{Jet(p.x(), 0), Jet(p.y(), 1), Jet(p.z(), 2)};
-    Eigen::Matrix<Jet, 2, 1> uv;
-    if (!project<Jet>(view_, p_W, uv)) return false;
-    for (int i = 0; i < 2; ++i) residuals[i] = (uv_px_[i] - uv[i].a) / sigma_px_;
-    if (!jacobians || !jacobians[0]) return true;
-    Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>> jacobian{jacobians[0], 2,
-                                                                                   body_.activeCount()};
-    for (int i = 0; i < 2; ++i) jacobian.row(i) = -uv[i].v.transpose() * body_.points().dp_dz[point_] / sigma_px_;
-    return true;
-  }
+/// All sightings of one landmark: residual [-] = L^-1 (observed - projected), two components a sighting, L L^T the
+/// covariance of their errors [px^2] - what the reader's idea of the landmark has in common in all of them included.
+/// A point behind the source refuses the step.
+class LandmarkCost : public ceres::CostFunction {
+ public:
+  LandmarkCost(const SharedBody& shared, int point, std::vector<SeenPoint> seen,
+               const Eigen::MatrixXd& covariance_px2);
+  bool Evaluate(const double* const* x, double* residuals, double** jacobians) const override;
 
  private:
-  const SharedBody& body_;
+  const SharedBody& shared_;
   int point_;
-  const View& view_;
-  Eigen::Vector2d uv_px_;
-  double sigma_px_;
+  std::vector<SeenPoint> seen_;
+  Eigen::LLT<Eigen::MatrixXd> root_;
 };
 
-/// residual [-] = weight * z for every active entry: the population's prior.
+/// residual [-] = weight * x for every entry: the population's prior, and that of the nuisances.
 class PriorCost : public ceres::CostFunction {
  public:
   explicit PriorCost(std::vector<double> weights) : weights_{std::move(weights)} {

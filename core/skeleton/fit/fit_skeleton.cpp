@@ -8,21 +8,42 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/ceres_job_internal.h"
 #include "core/skeleton/fit/bone_figures_internal.h"
+#include "core/skeleton/fit/fit_movement_internal.h"
+#include "core/skeleton/fit/fit_noise_internal.h"
 #include "core/skeleton/fit/fit_report_internal.h"
 #include "core/skeleton/fit/fit_residuals.h"
 #include "core/skeleton/fit/fit_start_internal.h"
+#include "core/skeleton/fit/posed_landmarks_internal.h"
 
 namespace sinew {
 namespace {
+
+/// The loss of a landmark with several sightings starts to be linear where as few of them lie as of one sighting
+/// beyond `loss_sigma`: quantiles of chi-squared over two degrees of freedom (Wilson & Hilferty 1931).
+double lossOfBlock(double loss_sigma, int sightings) {
+  const auto quantile = [](double d) {
+    constexpr double kNormalQuantile = 2.287;  // of the 1.1 % beyond 3 sigma in two dimensions
+    const double v = 2 / (9 * d);
+    return d * std::pow(1 - v + kNormalQuantile * std::sqrt(v), 3);
+  };
+  return loss_sigma * std::sqrt(quantile(2.0 * sightings) / quantile(2));
+}
+
+std::vector<View> viewsOf(std::span<const FitView> views) {
+  std::vector<View> list;
+  for (const FitView& view : views) list.push_back(view.view);
+  return list;
+}
 
 /// The fit as a computation: the unknowns are added stage by stage, so that a wrong start of one does not bend
 /// another.
 class SkeletonFitter {
  public:
-  SkeletonFitter(const Skeleton& reference, std::span<const View> views, std::span<const ShapePrior> priors,
+  SkeletonFitter(const Skeleton& reference, std::span<const FitView> views, std::span<const ShapePrior> priors,
                  const FitOptions& options, const Job& job, SightingList sightings)
       : reference_{reference},
         views_{views},
@@ -37,6 +58,11 @@ class SkeletonFitter {
     fit.warnings = sightings_.warnings;
     start();
     const std::vector<int> observable = observableUnknowns();
+    nuisances_.emplace(reference_, body_, views_, options_.movement, observable);
+    y_ = Eigen::VectorXd::Zero(nuisances_->count());
+    model_.emplace(FitModel{reference_, body_, views_, *nuisances_, sightings_.landmarks, pivot_W_});
+    blocks_ = blocksOf(sightings_);
+
     const auto up_to = [&](auto keep) {
       std::vector<int> some;
       std::ranges::copy_if(observable, std::back_inserter(some), keep);
@@ -46,33 +72,65 @@ class SkeletonFitter {
     const std::vector<int> root =
         up_to([&](int i) { return i == BodyParameters::kSize || (i >= posture && i < posture + 6); });
     const std::vector<int> pose = up_to([&](int i) { return i == BodyParameters::kSize || i >= posture; });
-    approach(root, 0, 0.1);
-    approach(pose, 0.1, 0.3);
+    approach({root, false}, 0, 0.1);
+    approach({pose, false}, 0.1, 0.3);
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds && lossWidth_sigma() > options_.robust_loss_sigma; ++round)
-      approach(observable, 0.3 + 0.4 * round / kRounds, 0.3 + 0.4 * (round + 1) / kRounds);
+      approach({observable, true}, 0.3 + 0.3 * round / kRounds, 0.3 + 0.3 * (round + 1) / kRounds);
     // Where the residuals stay larger than stated (a wrong geometry, say), so does the loss; describe() warns of it.
-    const SolveSettings final_settings{lossWidth_sigma(), options_.max_iterations, 1e-8};
-    fit.outcome = solve(observable, final_settings, 0.7, 0.9);
-    if (fit.outcome == Outcome::Converged && leaveOutGrossErrors())
-      fit.outcome = solve(observable, final_settings, 0.9, 1);
+    const Unknowns all{observable, true};
+    const auto settle = [&](double from, double to) {
+      return solve(all, {lossWidth_sigma(), options_.max_iterations, 1e-8}, from, to);
+    };
+    fit.outcome = settle(0.6, 0.7);
+    if (fit.outcome == Outcome::Converged && leaveOutGrossErrors()) fit.outcome = settle(0.7, 0.8);
+    constexpr int kScaleRounds = 2;
+    for (int round = 0; round < kScaleRounds && fit.outcome == Outcome::Converged; ++round) {
+      scale_ = estimateScale(all);
+      fit.outcome = settle(0.8 + 0.1 * round, 0.9 + 0.1 * round);
+    }
     if (fit.outcome != Outcome::Converged) return fit;
     describe(fit);
     return fit;
   }
 
  private:
+  /// Sightings of one landmark: indices into the list.
+  struct Block {
+    int point = 0;
+    std::vector<std::size_t> items;
+  };
+  static std::vector<Block> blocksOf(const SightingList& sightings) {
+    std::vector<Block> blocks(sightings.landmarks.size());
+    for (std::size_t i = 0; i < sightings.items.size(); ++i) {
+      const auto& s = sightings.items[i];
+      blocks[s.point].point = s.point;
+      if (!s.left_out) blocks[s.point].items.push_back(i);
+    }
+    std::erase_if(blocks, [](const Block& block) { return block.items.empty(); });
+    return blocks;
+  }
+
+  struct Unknowns {
+    std::vector<int> active;  ///< of z
+    bool nuisances = false;
+  };
+
   void start() {
     const auto at_mean = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
     std::vector<StartSighting> seen;
     for (const auto& s : sightings_.items) seen.push_back({s.point, s.view, s.uv_px, s.sigma_px});
-    const Similarity similarity = startOfFit(at_mean, views_, seen, 1);
+    const std::vector<View> views = viewsOf(views_);
+    const Similarity similarity = startOfFit(at_mean, views, seen, 1);
     // The root turns about the pelvis' origin, which stands at the root joint's place in the zero posture.
     const Eigen::Vector3d pelvis = reference_.joints.front().X_PJ.translation();
     body_.setRootStart(similarity.scale * similarity.R * pelvis + similarity.t - pelvis,
                        vectorFromRotation(similarity.R));
     const int i = BodyParameters::kSize;
     z_[i] = std::clamp(body_.zOfSize(body_.meanSize() * similarity.scale), body_.lower(i), body_.upper(i));
+    pivot_W_.setZero();
+    for (const auto& p : at_mean)
+      pivot_W_ += (similarity.scale * similarity.R * p + similarity.t) / static_cast<double>(at_mean.size());
   }
 
   /// Entries of z that move any seen landmark, judged at a body away from the symmetric mean.
@@ -100,14 +158,92 @@ class SkeletonFitter {
   /// along the linear branch of the stated one.
   double lossWidth_sigma() const { return std::max(options_.robust_loss_sigma, 2 * median(distances_sigma())); }
 
-  /// Distance of every sighting from the body z, in sigmas; infinite behind the source.
-  std::vector<double> distances_sigma() const {
-    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
-    std::vector<double> sigmas;
+  /// Landmarks as posed for every exposure.
+  std::vector<std::vector<Eigen::Vector3d>> posedByExposure() const {
+    std::vector<std::vector<Eigen::Vector3d>> points;
+    for (int e = 0; e < nuisances_->exposureCount(); ++e)
+      points.push_back(posePoints(reference_, body_, sightings_.landmarks, nuisances_->bodyAt(e, z_, y_), {}).p_W);
+    return points;
+  }
+
+  /// What every sighting shows at the present solution: its residual and how far that may lie from 0.
+  struct SeenResidual {
+    std::optional<Eigen::Vector2d> residual_px;  ///< none behind the source
+    Eigen::Matrix2d covariance_px2;
+  };
+  std::vector<SeenResidual> seenResiduals(const PickScale& scale) const {
+    const auto points = posedByExposure();
+    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
+    const auto frames = framesOfLandmarks();
+    std::vector<SeenResidual> list;
     for (const auto& s : sightings_.items) {
-      const auto uv = project(views_[s.view], points[s.point]);
-      sigmas.push_back(uv ? (s.uv_px - *uv).norm() / s.sigma_px : std::numeric_limits<double>::infinity());
+      const Eigen::Vector3d& p_W = points[nuisances_->exposureOf(s.view)][s.point];
+      SeenResidual seen{std::nullopt, Eigen::Matrix2d::Identity() * std::pow(scale.pick * s.sigma_px, 2)};
+      PointImage image;
+      if (views[s.view].image(p_W, image)) {
+        seen.residual_px = s.uv_px - image.uv_px;
+        seen.covariance_px2 +=
+            image.by_point * definitionCovariance_W(s.point, frames, scale) * image.by_point.transpose();
+      }
+      list.push_back(seen);
     }
+    return list;
+  }
+
+  std::vector<Eigen::Matrix3d> framesOfLandmarks() const {
+    std::vector<double> shape, q;
+    body_.expand<double>({z_.data(), static_cast<std::size_t>(z_.size())}, shape, q);
+    const auto X_WB = posedSegments<double>(reference_, shape, q);
+    std::vector<Eigen::Matrix3d> frames;
+    for (const int index : sightings_.landmarks) frames.push_back(X_WB[reference_.landmarks[index].segment].linear());
+    return frames;
+  }
+
+  /// Published covariance of a landmark's definition, in the world [m^2].
+  Eigen::Matrix3d statedDefinition_W(int point, const std::vector<Eigen::Matrix3d>& R_WB) const {
+    const std::string& name = reference_.landmarks[sightings_.landmarks[point]].name;
+    const auto stated = std::ranges::find(options_.definition_errors, name, &DefinitionError::landmark);
+    if (stated == options_.definition_errors.end()) return Eigen::Matrix3d::Zero();
+    return R_WB[point] * stated->covariance_B_m2 * R_WB[point].transpose();
+  }
+  Eigen::Matrix3d definitionCovariance_W(int point, const std::vector<Eigen::Matrix3d>& R_WB,
+                                         const PickScale& scale) const {
+    return std::pow(scale.definition, 2) * statedDefinition_W(point, R_WB) +
+           std::pow(1e-3 * scale.blur_mm, 2) * Eigen::Matrix3d::Identity();
+  }
+
+  /// Covariance of the sightings of every block at the present solution, by its causes.
+  std::vector<LandmarkNoise> noiseOfBlocks() const {
+    const auto points = posedByExposure();
+    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
+    const auto frames = framesOfLandmarks();
+    std::vector<LandmarkNoise> list;
+    for (const Block& block : blocks_) {
+      const Eigen::Index rows = 2 * static_cast<Eigen::Index>(block.items.size());
+      LandmarkNoise noise{Eigen::MatrixXd::Zero(rows, rows), {}, {}};
+      Eigen::MatrixXd by_point = Eigen::MatrixXd::Zero(rows, 3);
+      for (Eigen::Index i = 0; i < rows / 2; ++i) {
+        const auto& s = sightings_.items[block.items[i]];
+        noise.pick.diagonal().segment<2>(2 * i).setConstant(s.sigma_px * s.sigma_px);
+        PointImage image;
+        if (views[s.view].image(points[nuisances_->exposureOf(s.view)][s.point], image))
+          by_point.middleRows<2>(2 * i) = image.by_point;
+      }
+      noise.definition = by_point * statedDefinition_W(block.point, frames) * by_point.transpose();
+      noise.blur = by_point * by_point.transpose();
+      list.push_back(std::move(noise));
+    }
+    return list;
+  }
+
+  /// Distance of every sighting from the body, in sigmas; infinite behind the source.
+  std::vector<double> distances_sigma() const { return distances_sigma(scale_); }
+  std::vector<double> distances_sigma(const PickScale& scale) const {
+    std::vector<double> sigmas;
+    for (const SeenResidual& seen : seenResiduals(scale))
+      sigmas.push_back(seen.residual_px
+                           ? std::sqrt(seen.residual_px->dot(seen.covariance_px2.inverse() * *seen.residual_px))
+                           : std::numeric_limits<double>::infinity());
     return sigmas;
   }
 
@@ -131,33 +267,48 @@ class SkeletonFitter {
     const double most = kLargestShare * static_cast<double>(sigmas.size());
     if (static_cast<double>(gross.size()) > most) gross.resize(static_cast<std::size_t>(most));
     for (const std::size_t i : gross) sightings_.items[i].left_out = true;
+    blocks_ = blocksOf(sightings_);
     return !gross.empty();
   }
 
   /// Some steps towards the solution; how they end does not matter yet.
-  void approach(const std::vector<int>& active, double from, double to) {
-    solve(active, {lossWidth_sigma(), 10, 1e-3}, from, to);
+  void approach(const Unknowns& unknowns, double from, double to) {
+    solve(unknowns, {lossWidth_sigma(), 10, 1e-3}, from, to);
   }
 
-  Outcome solve(const std::vector<int>& active, const SolveSettings& settings, double from, double to) {
+  std::vector<SeenPoint> seenPoints(const Block& block) const {
+    std::vector<SeenPoint> seen;
+    for (const std::size_t i : block.items) seen.push_back({sightings_.items[i].view, sightings_.items[i].uv_px});
+    return seen;
+  }
+
+  /// Weights of the priors of the solver's unknowns.
+  std::vector<double> priorWeights(const Unknowns& unknowns) const {
+    std::vector<double> weights;
+    for (const int i : unknowns.active) weights.push_back(body_.priorWeight(i));
+    if (unknowns.nuisances) weights.insert(weights.end(), static_cast<std::size_t>(y_.size()), 1.0);
+    return weights;
+  }
+
+  Outcome solve(const Unknowns& unknowns, const SolveSettings& settings, double from, double to) {
     if (job_.cancelled()) return Outcome::Cancelled;
     if (!std::ranges::all_of(distances_sigma(), [](double d) { return std::isfinite(d); }))
       return Outcome::NotConverged;  // part of the body stands behind a source
-    SharedBody shared{reference_, body_, sightings_.landmarks, active, z_};
+    SharedBody shared{*model_, unknowns.active, z_, y_, unknowns.nuisances};
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &shared;
     ceres::Problem problem{problem_options};
-    for (const auto& s : sightings_.items) {
-      if (s.left_out) continue;
-      problem.AddResidualBlock(new SightingCost{shared, s.point, views_[s.view], s.uv_px, s.sigma_px},
-                               new ceres::HuberLoss{settings.loss_sigma}, shared.x());
+    const auto noise = noiseOfBlocks();
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const double loss = lossOfBlock(settings.loss_sigma, static_cast<int>(blocks_[b].items.size()));
+      problem.AddResidualBlock(
+          new LandmarkCost{shared, blocks_[b].point, seenPoints(blocks_[b]), noise[b].at(scale_)},
+          new ceres::HuberLoss{loss}, shared.x());
     }
-    std::vector<double> weights;
-    for (const int i : active) weights.push_back(body_.priorWeight(i));
-    problem.AddResidualBlock(new PriorCost{weights}, nullptr, shared.x());
+    problem.AddResidualBlock(new PriorCost{priorWeights(unknowns)}, nullptr, shared.x());
     for (int i = 0; i < shared.activeCount(); ++i) {
-      problem.SetParameterLowerBound(shared.x(), i, body_.lower(active[i]));
-      problem.SetParameterUpperBound(shared.x(), i, body_.upper(active[i]));
+      problem.SetParameterLowerBound(shared.x(), i, body_.lower(unknowns.active[i]));
+      problem.SetParameterUpperBound(shared.x(), i, body_.upper(unknowns.active[i]));
     }
     CeresJob monitor{job_, "fitting shape and posture", settings.max_iterations, from, to};
     auto solver = solverOptions(monitor, settings.max_iterations, ceres::DENSE_NORMAL_CHOLESKY);
@@ -168,24 +319,54 @@ class SkeletonFitter {
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     z_ = shared.z();
+    y_ = shared.y();
     const Outcome outcome = outcomeOf(summary);
-    if (outcome == Outcome::Converged) rememberCovariance(problem, active);
+    if (outcome == Outcome::Converged) rememberCovariance(problem, unknowns);
     return outcome;
+  }
+
+  /// Scale of the reader's errors at the solution. Landmarks beyond the loss count with its weight.
+  PickScale estimateScale(const Unknowns& unknowns) const {
+    SharedBody shared{*model_, unknowns.active, z_, y_, unknowns.nuisances};
+    shared.PrepareForEvaluation(true, true);
+    auto noise = noiseOfBlocks();
+    std::vector<LinearizedLandmark> landmarks;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const Eigen::Index rows = 2 * static_cast<Eigen::Index>(blocks_[b].items.size());
+      const LandmarkCost cost{shared, blocks_[b].point, seenPoints(blocks_[b]),
+                              Eigen::MatrixXd::Identity(rows, rows)};
+      LinearizedLandmark landmark{Eigen::VectorXd(rows), {}, std::move(noise[b])};
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(rows, shared.size());
+      double* jacobians[] = {jacobian.data()};
+      const double* x[] = {shared.x()};
+      if (!cost.Evaluate(x, landmark.residual_px.data(), jacobians)) continue;
+      const double distance =
+          std::sqrt(landmark.residual_px.dot(landmark.noise.at(scale_).llt().solve(landmark.residual_px)));
+      const double weight = std::min(1.0, lossOfBlock(lossWidth_sigma(), static_cast<int>(rows / 2)) / distance);
+      landmark.residual_px *= std::sqrt(weight);
+      landmark.jacobian_px = std::sqrt(weight) * jacobian;
+      landmarks.push_back(std::move(landmark));
+    }
+    const std::vector<double> weights = priorWeights(unknowns);
+    const Eigen::Index n = shared.size();
+    return estimatePickScale(landmarks, Eigen::Map<const Eigen::VectorXd>{weights.data(), n},
+                             Eigen::Map<const Eigen::VectorXd>{shared.x(), n}, !options_.definition_errors.empty());
   }
 
   /// Inverse of the normal matrix at the solution, priors included: the Laplace approximation of the posterior.
   /// What no sighting moves keeps the prior's variance.
-  void rememberCovariance(ceres::Problem& problem, const std::vector<int>& active) {
+  void rememberCovariance(ceres::Problem& problem, const Unknowns& unknowns) {
     ceres::CRSMatrix jacobian;
     problem.Evaluate(ceres::Problem::EvaluateOptions{}, nullptr, nullptr, nullptr, &jacobian);
-    const Eigen::Index n = static_cast<Eigen::Index>(active.size());
+    const Eigen::Index active = static_cast<Eigen::Index>(unknowns.active.size()),
+                       n = active + (unknowns.nuisances ? y_.size() : 0);
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J{
         jacobian.values.data(), jacobian.num_rows, n};
     const Eigen::MatrixXd inverse = (J.transpose() * J).llt().solve(Eigen::MatrixXd::Identity(n, n));
     covariance_ = Eigen::MatrixXd::Zero(body_.count(), body_.count());
     for (int i = 0; i < body_.count(); ++i) covariance_(i, i) = 1 / std::pow(body_.priorWeight(i), 2);
-    for (Eigen::Index r = 0; r < n; ++r)
-      for (Eigen::Index c = 0; c < n; ++c) covariance_(active[r], active[c]) = inverse(r, c);
+    covariance_(unknowns.active, unknowns.active) = inverse.topLeftCorner(active, active);
+    nuisance_covariance_ = inverse.bottomRightCorner(n - active, n - active);
   }
 
   void describe(SkeletonFit& fit) const {
@@ -193,8 +374,21 @@ class SkeletonFitter {
     body_.expand<double>({z_.data(), static_cast<std::size_t>(z_.size())}, shape, q);
     fit.shape = shapeFromVector(shape);
     fit.posture = Eigen::Map<Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
-    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
-    describeResiduals(sightings_, views_, points, fit);
+    fit.pick_scale = scale_;
+    const PickScale stated;
+    const auto seen = seenResiduals(stated);
+    const auto distances = distances_sigma(stated);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      fit.residuals.push_back({sightings_.items[i].landmark, sightings_.items[i].view,
+                               seen[i].residual_px.value_or(Eigen::Vector2d::Zero()), distances[i]});
+    describeResiduals(sightings_, fit);
+    if (getenv("DBG_BEND")) {
+      const auto b = likeliestBend(reference_, *nuisances_, y_, nuisance_covariance_);
+      fprintf(stderr, "BEND %s%s %.2f deg %.2f sigma pick %.2f\n", b.joints.empty() ? "" : b.joints[0].c_str(),
+              b.joints.size() > 1 ? "+" : "", b.angle_rad * 57.3, b.sigmas, scale_.pick);
+    }
+    fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_);
+    warnOfMovement(fit.movements, fit.warnings);
     const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
     fit.undetermined = namesOf(reference_, body_, covariance_, options_.undetermined_ratio);
     fit.figures = figuresWithIntervals(reference_, body_, z_, covariance_, undetermined);
@@ -202,21 +396,26 @@ class SkeletonFitter {
   }
 
   const Skeleton& reference_;
-  std::span<const View> views_;
+  std::span<const FitView> views_;
   const FitOptions& options_;
   const Job& job_;
   SightingList sightings_;
   BodyParameters body_;
-  Eigen::VectorXd z_;
-  Eigen::MatrixXd covariance_;
+  std::optional<Nuisances> nuisances_;
+  std::optional<FitModel> model_;
+  std::vector<Block> blocks_;
+  Eigen::Vector3d pivot_W_ = Eigen::Vector3d::Zero();
+  Eigen::VectorXd z_, y_;
+  PickScale scale_;
+  Eigen::MatrixXd covariance_, nuisance_covariance_;
 };
 
 }  // namespace
 
-SkeletonFit fitSkeleton(const Skeleton& reference, std::span<const View> views,
+SkeletonFit fitSkeleton(const Skeleton& reference, std::span<const FitView> views,
                         std::span<const LandmarkObservation> observations, std::span<const ShapePrior> priors,
                         const FitOptions& options, const Job& job) {
-  SightingList sightings = usableSightings(reference, views, observations);
+  SightingList sightings = usableSightings(reference, views.size(), observations);
   return SkeletonFitter{reference, views, priors, options, job, std::move(sightings)}.run();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,13 @@
 
 namespace sinew {
 
-/// What a person says about masses and strengths besides the shape; what is not named follows the scaling rules of
-/// core/model/physical_scaling.h.
+/// What a person says about masses, strengths and joints besides the shape; what is not named follows the scaling
+/// rules of core/model/physical_scaling.h.
 struct PhysicsFactors {
   std::map<std::string, double> mass_factors;      ///< by segment: times the mass of its deformed volume
   std::map<std::string, double> mass_ratios;       ///< by segment: its mass over the reference's, whatever the volume
   std::map<std::string, double> strength_factors;  ///< by unit, muscle or group: F_max over the reference's
+  std::optional<double> age_years;                 ///< joints are as lax as at this age; absent: as an adult's
   friend bool operator==(const PhysicsFactors&, const PhysicsFactors&) = default;
 };
 

@@ -11,6 +11,7 @@ namespace sinew {
 namespace {
 
 constexpr double kLeastFactor = 0.01, kGreatestFactor = 100;  // beyond it is a wrong unit
+constexpr double kGreatestAge_years = 120;
 
 /// "femur_r.torsion" -> "femur_r", "torsion".
 std::pair<std::string, std::string> split(const std::string& field) {
@@ -135,7 +136,7 @@ std::map<std::string, std::string> sourcesFromJson(const JsonReader& json) {
   std::map<std::string, std::string> sources;
   for (const auto& [name, value] : json.members()) {
     const bool known = std::ranges::count(fieldNames(), name) || std::ranges::count(partNames(), name) ||
-                       name == "strength" || name == "all";
+                       name == "strength" || name == "age_years" || name == "all";
     if (!known) value.fail("a field or part of a body, or 'all'", "'" + name + "'" + didYouMean(name, fieldNames()));
     sources[name] = value.text();
   }
@@ -208,13 +209,15 @@ BodyDescription bodyFromJson(const JsonReader& json) {
   BodyDescription body;
   body.name.clear();
   BodyReader reader{body};
-  const std::vector<std::string> plain = {"format", "version", "name", "about", "strength", "sources"};
+  const std::vector<std::string> plain = {"format", "version", "name", "about", "age_years", "strength", "sources"};
   if (json.find("format") || json.find("version")) json.expectFormat("sinew.shape", 1);
   for (const auto& [name, value] : json.members()) {
     if (name == "name")
       body.name = value.text();
     else if (name == "about")
       body.about = value.text();
+    else if (name == "age_years")
+      body.physics.age_years = value.numberIn(0, kGreatestAge_years);
     else if (name == "strength")
       body.physics.strength_factors = factorsFromJson(value);
     else if (name == "sources")
@@ -236,6 +239,7 @@ BodyDescription bodyFromJson(const JsonReader& json) {
 Json bodyToJson(const BodyDescription& body) {
   Json json{{"format", "sinew.shape"}, {"version", 1}, {"name", body.name}};
   if (!body.about.empty()) json["about"] = body.about;
+  if (body.physics.age_years) json["age_years"] = *body.physics.age_years;
   putShape(json, body.shape);
   putMasses(json, body.physics.mass_factors, ".mass");
   putMasses(json, body.physics.mass_ratios, ".mass_ratio");
@@ -245,15 +249,18 @@ Json bodyToJson(const BodyDescription& body) {
 }
 
 Json physicsFactorsToJson(const PhysicsFactors& factors) {
-  return {{"mass_factors", factors.mass_factors},
-          {"mass_ratios", factors.mass_ratios},
-          {"strength_factors", factors.strength_factors}};
+  Json json{{"mass_factors", factors.mass_factors},
+            {"mass_ratios", factors.mass_ratios},
+            {"strength_factors", factors.strength_factors}};
+  if (factors.age_years) json["age_years"] = *factors.age_years;
+  return json;
 }
 
 PhysicsFactors physicsFactorsFromJson(const JsonReader& json) {
-  json.allowOnly({"mass_factors", "mass_ratios", "strength_factors"});
-  const PhysicsFactors factors{factorsFromJson(json["mass_factors"]), factorsFromJson(json["mass_ratios"]),
-                               factorsFromJson(json["strength_factors"])};
+  json.allowOnly({"mass_factors", "mass_ratios", "strength_factors", "age_years"});
+  PhysicsFactors factors{factorsFromJson(json["mass_factors"]), factorsFromJson(json["mass_ratios"]),
+                         factorsFromJson(json["strength_factors"]), std::nullopt};
+  if (const auto age = json.find("age_years")) factors.age_years = age->numberIn(0, kGreatestAge_years);
   for (const auto& [place, masses] :
        {std::pair{"mass_factors", factors.mass_factors}, std::pair{"mass_ratios", factors.mass_ratios}})
     for (const auto& [segment, factor] : masses)

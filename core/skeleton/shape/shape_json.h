@@ -17,7 +17,7 @@ Json bodyToJson(const BodyDescription& body);
 /// The name is empty if the file gives none. @throws InputError: where, field, expected, found.
 BodyDescription bodyFromJson(const JsonReader& json);
 
-/// {"mass_factors": {"femur_r": 1.2}, "mass_ratios": {}, "strength_factors": {"quadriceps": 0.8}}
+/// {"mass_factors": {"femur_r": 1.2}, "mass_ratios": {}, "strength_factors": {"quadriceps": 0.8}, "age_years": 7}
 Json physicsFactorsToJson(const PhysicsFactors& factors);
 /// @throws InputError for a segment that carries no mass, a factor that is none.
 PhysicsFactors physicsFactorsFromJson(const JsonReader& json);

@@ -11,7 +11,6 @@
 #include <cstdlib>
 
 #include "app/plot/gui_application.h"
-#include "app/plot/moment_plot.h"
 #include "app/report/report_layout.h"
 #include "app/report/table_layout.h"
 #include "core/error.h"
@@ -163,16 +162,6 @@ TEST_F(ReportPdf, TablesFillTheirWidthAndGrowWithTheirText) {
       "a text that is far too long for the half of sixty millimetres and so must be wrapped into lines";
   EXPECT_GT(TableLayout(table, 60, 2).rowHeight_mm(0), 1.6 * one_line);
   EXPECT_NEAR(TableLayout(table, 300, 2).rowHeight_mm(0), one_line, 1e-9);
-}
-
-TEST(MomentPlot, StepsAreRound) {
-  EXPECT_DOUBLE_EQ(roundStep(90), 20);
-  EXPECT_DOUBLE_EQ(roundStep(72), 10);
-  EXPECT_DOUBLE_EQ(roundStep(0.9), 0.2);
-  for (double range = 0.03; range < 5000; range *= 1.37) {
-    EXPECT_GE(range / roundStep(range), 3.99) << range;
-    EXPECT_LE(range / roundStep(range), 10.01) << range;
-  }
 }
 
 }  // namespace

@@ -20,8 +20,8 @@
 #include "app/widgets/views/model_view.h"
 #include "app/widgets/views/vtk_view.h"
 #include "core/angle.h"
-#include "tests/support/resources.h"
 #include "tests/app/widgets/window_tour.h"
+#include "tests/support/resources.h"
 
 namespace sinew {
 namespace {

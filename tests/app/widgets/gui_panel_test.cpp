@@ -129,12 +129,5 @@ TEST_F(PanelTest, TheRangeOfGreysIgnoresTheTails) {
   EXPECT_NEAR(high, 600, 4);
 }
 
-TEST(RoundStep, IsOneTwoOrFiveTimesAPowerOfTen) {
-  EXPECT_DOUBLE_EQ(roundStep(100, 10), 10);
-  EXPECT_DOUBLE_EQ(roundStep(100, 9), 20);
-  EXPECT_DOUBLE_EQ(roundStep(0.7, 4), 0.2);
-  EXPECT_DOUBLE_EQ(roundStep(0, 4), 1);
-}
-
 }  // namespace
 }  // namespace sinew

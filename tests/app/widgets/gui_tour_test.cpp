@@ -21,9 +21,9 @@
 #include "app/widgets/views/vtk_view.h"
 #include "clinical/case/case_io.h"
 #include "core/file.h"
+#include "tests/app/widgets/window_tour.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/app/widgets/window_tour.h"
 
 namespace sinew {
 namespace {

@@ -64,6 +64,13 @@ TEST(PipelineState, EachInputReachesTheStagesThatReadIt) {
   c.patient.diagnosis += "x";
   EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "done", "stale"));
   c = finishedCase();
+  c.patient.mass_kg = c.patient.mass_kg.value_or(40) + 1;  // forces and ligaments follow it
+  EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));
+  c = finishedCase();
+  c.patient.birth_date = "2014-03-09";
+  c.exam.date = "2024-03-09";  // and the joints the age
+  EXPECT_EQ(stateOf(c, Stage::Musculature, test::resourceDir()), StageState::Stale);
+  c = finishedCase();
   c.images[1].declared_spacing_mm = 0.5;
   EXPECT_EQ(states(c)[0], "stale");
   c = finishedCase();

@@ -109,7 +109,7 @@ TEST_F(PipelineTest, GoesTheWholeWay) {
     }
   EXPECT_TRUE(caseFromJson(caseToJson(c_), "case") == c_);
   for (const auto& [stage, record] : c_.stages) {
-    EXPECT_EQ(record.input_hash, inputHash(c_, stage)) << nameOf(stage);
+    EXPECT_EQ(record.input_hash, inputHash(c_, stage, test::resourceDir())) << nameOf(stage);
     EXPECT_THAT(record.summary, ::testing::Not(HasSubstr(c_.patient.name))) << nameOf(stage);
   }
 }
@@ -275,6 +275,7 @@ TEST_F(PipelineTest, WarnsOfWhatNobodyPickedOrMeasured) {
   };
   EXPECT_TRUE(codes(Stage::Landmarks, "landmarks_missing"));
   EXPECT_TRUE(codes(Stage::Landmarks, "unknown_landmark"));
+  EXPECT_TRUE(codes(Stage::Musculature, "model_mass_unknown"));
   EXPECT_TRUE(codes(Stage::Exam, "nothing_measured"));
   EXPECT_TRUE(codes(Stage::Exam, "mass_unknown"));
 }

@@ -1,4 +1,5 @@
 #include "clinical/synthetic/synthetic_case.h"
+#include "clinical/case/patient_body.h"
 
 #include <gmock/gmock.h>
 
@@ -61,7 +62,9 @@ TEST(DrawSyntheticPatient, ExaminationShowsTheContractures) {
   const auto options = smallOptions(5);
   const auto patient = drawSyntheticPatient(reference(), options);
   const ExamProtocol protocol = loadExamProtocol(options.resource_dir);
-  const Model free = retarget(reference(), patient.shape).model;
+  const RetargetOptions body{
+      .physics = patientPhysics(patient.patient, patient.exam, patient.shape, reference().model().skeleton)};
+  const Model free = retarget(reference(), patient.shape, body).model;
   ASSERT_EQ(patient.exam.entries.size(), 2 * protocol.tests.size());
   EXPECT_TRUE(checkExam(patient.exam, protocol).size() <= patient.exam.entries.size());  // accepted: it would throw
   for (const auto& entry : patient.exam.entries) {

@@ -4,8 +4,8 @@
 #include "clinical/synthetic/bone_tissue.h"
 #include "core/skeleton/kinematics.h"
 #include "imaging/xray/xray_attenuation.h"
-#include "tests/support/solids.h"
 #include "tests/support/resources.h"
+#include "tests/support/solids.h"
 
 namespace sinew {
 namespace {

@@ -4,7 +4,9 @@
 
 #include "app/bench/mujoco_peer.h"
 #include "core/foreign/foreign_from_model.h"
+#include "core/io/mjcf/mjcf_structures_internal.h"
 #include "core/muscle/muscle_path.h"
+#include "core/skeleton/clinical_angles.h"
 #include "tests/support/postures.h"
 #include "tests/support/resources.h"
 
@@ -173,6 +175,82 @@ TEST(MjcfInMujoco, PassiveForceIsTheGreatestAtTheEditedPassiveStrain) {
     const double expected_N = unit.max_isometric_force_N * std::cos(unit.pennation_angle_at_optimal_rad);
     EXPECT_NEAR(mujoco->passiveForce_N(i), expected_N, 1e-6 * expected_N) << unit.name;  // 12 digits in the file
   }
+}
+
+/// The reference without muscles: what actuators do is then what the structures do.
+Model structuresAlone() {
+  Model model = reference();
+  model.musculature.units.clear();
+  return model;
+}
+
+/// Moment vector about a ball joint, in the child's frame, of generalised forces by clinical coordinate.
+Eigen::Vector3d momentVector_B(const Skeleton& s, const Joint& joint, const Posture& q,
+                               const Eigen::VectorXd& forces) {
+  const Kinematics k = clinicalKinematics(s, q);
+  Eigen::Matrix3d w_W;
+  for (const SegmentMotion& motion : k.motions[std::size_t(joint.child)])
+    if (const int i = motion.coordinate - joint.first_coordinate; i >= 0 && i < 3) w_W.col(i) = motion.twist.w;
+  const Eigen::Vector3d t_W = w_W.transpose().inverse() * forces.segment<3>(joint.first_coordinate);
+  return k.X_WB[std::size_t(joint.child)].linear().transpose() * t_W;
+}
+
+TEST(MjcfInMujoco, StructuresOfOneCoordinateAreWithinTwoAndAHalfPercentOfTheirEnd) {
+  const Model model = structuresAlone();
+  const auto mujoco = MujocoPeer::make(model);
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  const Skeleton& s = model.skeleton;
+  double worst_share = 0;
+  for (const Joint& joint : s.joints) {
+    if (joint.type == JointType::Free) continue;
+    for (int i = joint.first_coordinate; i < joint.first_coordinate + joint.coordinate_count; ++i) {
+      const PassiveMoment& m = model.passive_moments[std::size_t(i)];
+      const Coordinate& c = s.coordinates[std::size_t(i)];
+      for (double t = -0.02; t <= 1.02; t += 0.02) {  // a little beyond the stops too
+        Eigen::VectorXd clinical = Eigen::VectorXd::Zero(s.coordinateCount());
+        clinical[i] = std::lerp(c.stop_min_rad, c.stop_max_rad, t);
+        const double ours_Nm = passiveMoment_Nm(m, clinical[i]);
+        if (std::abs(ours_Nm) > 2 * std::max(m.upper_Nm, m.lower_Nm)) continue;
+        const Posture q = postureFromClinical(s, clinical);
+        mujoco->setPositions(mujoco->positions(q));
+        const Eigen::VectorXd theirs = mujoco->actuatorMoments_Nm();
+        const bool ball = joint.type == JointType::Ball && withoutSide(joint.name) != "wrist";
+        const double theirs_Nm =
+            ball ? Eigen::Vector3d{theirs.segment<3>(joint.first_coordinate)}.dot(c.axis) : theirs[i];
+        const double share = std::abs(theirs_Nm - ours_Nm) / std::max(m.upper_Nm, m.lower_Nm);
+        worst_share = std::max(worst_share, share);
+        EXPECT_LT(share, kMjcfStructureError + 0.001) << c.name << " at " << clinical[i];  // both ends together
+      }
+    }
+  }
+  std::printf("structures in MuJoCo, one coordinate: within %.2f %% of the end's moment\n", 100 * worst_share);
+  EXPECT_GT(worst_share, 0.01);  // they are there
+}
+
+/// What `sinew export` reports is what MuJoCo has, in any orientation of the joints.
+TEST(MjcfInMujoco, StructuresAreThoseThatTheReportIsMadeOf) {
+  const Model model = structuresAlone();
+  const auto mujoco = MujocoPeer::make(model);
+  if (!mujoco) GTEST_SKIP() << "MuJoCo is not installed";
+  const Skeleton& s = model.skeleton;
+  std::mt19937_64 random{59};
+  for (int trial = 0; trial < 20; ++trial) {
+    const Posture q = postureFromClinical(s, test::randomClinical(s, random));
+    mujoco->setPositions(mujoco->positions(q));
+    const Eigen::VectorXd theirs = mujoco->actuatorMoments_Nm(), ours = mjcfStructureMoments_Nm(model, q);
+    for (const Joint& joint : s.joints) {
+      if (joint.type == JointType::Free) continue;
+      const int first = joint.first_coordinate;
+      if (joint.type == JointType::Ball && withoutSide(joint.name) != "wrist") {
+        const Eigen::Vector3d t_B = momentVector_B(s, joint, q, ours);
+        EXPECT_LT((t_B - theirs.segment<3>(first)).norm(), 1e-6 * (1 + t_B.norm())) << joint.name;
+      } else {
+        for (int i = first; i < first + joint.coordinate_count; ++i)
+          EXPECT_NEAR(theirs[i], ours[i], 1e-6 * (1 + std::abs(ours[i]))) << s.coordinates[std::size_t(i)].name;
+      }
+    }
+  }
+  std::printf("%s\n", summaryText(*mjcfDeviation(reference()).structures).c_str());
 }
 
 TEST(MjcfInMujoco, TheBodyFallsWithoutBreaking) {

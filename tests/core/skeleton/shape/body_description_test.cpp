@@ -96,7 +96,7 @@ TEST(BodyDescription, MassesOfTheTrunkAndOfOneSegment) {
 TEST(BodyDescription, SavedAndLoadedIsTheSame) {
   const test::TemporaryFolder folder;
   BodyDescription body = read(R"({
-    "name": "test", "about": "for a test", "pelvis.width": 1.1, "trunk": {"elongation": 0.9, "bend_deg": 12, "mass": 1.2},
+    "name": "test", "about": "for a test", "age_years": 9, "pelvis.width": 1.1, "trunk": {"elongation": 0.9, "bend_deg": 12, "mass": 1.2},
     "femur": {"elongation": 1.3, "neck_shaft_deg": 5}, "tibia_r": {"torsion_deg": 7}, "tibia_l": {"torsion_deg": -7},
     "hand_l.scale": 0.7, "ulna": {"mass_ratio": 1.4}, "humerus_l.mass": 0.6,
     "strength": {"quadriceps": 0.8, "soleus_medial_r": 1.5}, "sources": {"femur.elongation": "a guess"}})");
@@ -186,6 +186,7 @@ TEST(ShapePresets, EachHasSourcesAndAnUnknownNameIsAnsweredWithTheNearest) {
     EXPECT_GT(load.shape.sides[0].femur.neck_shaft_rad, 0);
     EXPECT_GT(load.shape.head_scale, load.shape.trunk_elongation);
   }
+  EXPECT_EQ(loadShapePreset(test::resourceDir(), "child").physics.age_years, 7);
   EXPECT_THAT([] { loadBody("alein", test::resourceDir()); },
               testing::ThrowsMessage<InputError>(AllOf(HasSubstr("'alein'"), HasSubstr("alien"))));
 }
