@@ -45,6 +45,11 @@ struct MujocoPeer::Impl {
     d.reset(mj_makeData(m.get()));
   }
 
+  /// A hinge for each coordinate instead of a ball.
+  bool hasHinges(const Joint& joint) const {
+    return mj_name2id(m.get(), mjOBJ_JOINT, skeleton.coordinates[joint.first_coordinate].name.c_str()) >= 0;
+  }
+
   int address(const std::string& joint) const {
     const int id = mj_name2id(m.get(), mjOBJ_JOINT, joint.c_str());
     if (id < 0) throw std::runtime_error{"MuJoCo has no joint " + joint};
@@ -77,10 +82,9 @@ Eigen::VectorXd MujocoPeer::positions(const Posture& q) const {
       const int at = impl_->address(joint.name);
       x.segment<3>(at) = joint.X_PJ * Eigen::Vector3d{q.segment<3>(first)};
       setTurn(at + 3, joint.X_PJ.linear() * rotationFromVector<double>(q.segment<3>(first + 3)));
-    } else if (joint.type == JointType::Revolute) {
-      x[impl_->address(s.coordinates[first].name)] = q[first];
-    } else if (withoutSide(joint.name) == "wrist") {
-      for (int i = first; i < first + 3; ++i) x[impl_->address(s.coordinates[i].name)] = clinical[i];
+    } else if (impl_->hasHinges(joint)) {
+      for (int i = first; i < first + joint.coordinate_count; ++i)
+        x[impl_->address(s.coordinates[i].name)] = clinical[i];
     } else {
       setTurn(impl_->address(joint.name), rotationFromVector<double>(q.segment<3>(first)));
     }
@@ -113,7 +117,7 @@ double MujocoPeer::passiveForce_N(int unit) {
   mju_zero(impl_->d->act, impl_->m->na);
   mju_zero(impl_->d->qvel, impl_->m->nv);
   mj_forward(impl_->m.get(), impl_->d.get());
-  return -impl_->d->actuator_force[unit];
+  return -impl_->d->actuator_force[impl_->m->nu - impl_->m->ntendon + unit];  // one tendon a muscle, muscles last
 }
 
 Eigen::VectorXd MujocoPeer::actuatorMoments_Nm() {
@@ -127,7 +131,7 @@ Eigen::VectorXd MujocoPeer::actuatorMoments_Nm() {
   };
   for (const Joint& joint : s.joints) {
     if (joint.type == JointType::Free) continue;
-    const bool ball = joint.type == JointType::Ball && withoutSide(joint.name) != "wrist";
+    const bool ball = !impl_->hasHinges(joint);
     for (int i = 0; i < joint.coordinate_count; ++i) {
       const int c = joint.first_coordinate + i;
       moments_Nm[c] = ball ? at(joint.name)[i] : *at(s.coordinates[std::size_t(c)].name);

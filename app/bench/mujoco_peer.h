@@ -14,7 +14,7 @@ class MujocoPeer {
   static std::string version();  ///< "MuJoCo 2.2.2"
   ~MujocoPeer();
 
-  /// Generalised positions of a posture: patellae at their exact glide, wrists by clinical angles.
+  /// Generalised positions of a posture: patellae at their exact glide, hinges at the clinical angles.
   Eigen::VectorXd positions(const Posture& posture) const;
   void setPositions(const Eigen::VectorXd& positions);
   /// Kinematics, lengths of all tendons and their gradients (mj_kinematics, mj_comPos, mj_tendon).

@@ -83,6 +83,11 @@ QString spacingText(const Radiograph& radiograph) {
   return QStringLiteral("%1 × %2 mm, %3").arg(s.column_mm, 0, 'f', 3).arg(s.row_mm, 0, 'f', 3).arg(source);
 }
 
+QString viewTitle(const Case& c, int view) {
+  if (c.rig && view < int(c.rig->views.size())) return tr(viewTitle(c.rig->views, view).c_str());
+  return view == 0 ? tr("Frontal") : view == 1 ? tr("Lateral") : tr("View %1").arg(view + 1);
+}
+
 QString methodTitle(const std::string& method) {
   return QString::fromStdString(calibrationMethodTitle(method));
 }

@@ -19,6 +19,10 @@ QString stateExplanation(StageState state, Stage stage);
 /// "0.143 x 0.143 mm (at the detector)", "size of a pixel unknown".
 QString spacingText(const Radiograph& radiograph);
 
+/// "Frontal", "Lateral", "Oblique", "View 3": by the geometry's roles, by the order of the images before there is
+/// one.
+QString viewTitle(const Case& c, int view);
+
 /// "bead_phantom" -> "Bead phantom"; a method that is not known stays as it is.
 QString methodTitle(const std::string& method);
 

@@ -35,10 +35,14 @@ void ViewState::setMuscle(const std::string& name) {
   emit muscleChanged();
 }
 
+DisplayWindow ViewState::window(int slot) const {
+  const auto found = windows_.find(slot);
+  return found == windows_.end() ? DisplayWindow{} : found->second;
+}
+
 void ViewState::setWindow(int slot, const DisplayWindow& window) {
-  auto& current = windows_.at(std::size_t(slot));
-  if (current == window) return;
-  current = window;
+  if (this->window(slot) == window) return;
+  windows_[slot] = window;
   emit windowChanged(slot);
 }
 
@@ -46,7 +50,7 @@ void ViewState::reset() {
   setStage(Stage::Images);
   setLandmark({});
   setMuscle({});
-  for (int slot = 0; slot < int(windows_.size()); ++slot) setWindow(slot, {});
+  for (const auto& [slot, window] : windows_) setWindow(slot, {});
 }
 
 }  // namespace sinew

@@ -1,6 +1,6 @@
 #pragma once
 #include <QObject>
-#include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -24,8 +24,9 @@ class ViewState : public QObject {
   Stage stage() const { return stage_; }
   const std::string& landmark() const { return landmark_; }
   const std::string& muscle() const { return muscle_; }
-  /// 0, 1: the patient's radiographs; 2, 3: the phantom's.
-  const DisplayWindow& window(int slot) const { return windows_.at(std::size_t(slot)); }
+  /// Slot of a view's radiograph, the patient's or the phantom's.
+  static int slotOf(int view, bool phantom) { return 2 * view + (phantom ? 1 : 0); }
+  DisplayWindow window(int slot) const;
 
   /// Whether the model explorer is looked at instead of a stage or the first page.
   bool explorer() const { return explorer_; }
@@ -51,7 +52,7 @@ class ViewState : public QObject {
   Stage stage_ = Stage::Images;
   bool explorer_ = false, retargeting_ = false;
   std::string landmark_, muscle_;
-  std::array<DisplayWindow, 4> windows_;
+  std::map<int, DisplayWindow> windows_;  ///< by slot; absent = as the file says
 };
 
 }  // namespace sinew

@@ -63,7 +63,7 @@ RadiographPicture radiographPicture(const Case& c, const std::filesystem::path& 
   picture.image = greyImage(radiograph);
   picture.reduction = double(picture.image.height()) / radiograph.height_px;
   picture.contours = boneContours(bones, X_WB, geometry);
-  picture.title = view == 0 ? "Frontal radiograph" : "Lateral radiograph";
+  picture.title = QString::fromStdString(viewTitle(c.rig->views, view)) + " radiograph";
   if (const auto* pelvis = pelvisPose(skeleton, X_WB)) {
     nameSides(picture, geometry, *pelvis);
     const Eigen::Vector3d p_W = pelvis->translation();

@@ -78,8 +78,8 @@ ReportDocument gatherReport(const Case& c, const std::filesystem::path& case_dir
   Model model = modelBeforeExam(c, reference, case_dir, resource_dir);
   const auto X_WB = segmentPoses(model.skeleton, c.skeleton->posture);
   const auto bones = supportedBones(model, c.sightings);
-  for (int view = 0; view < 2; ++view)
-    document.radiographs[std::size_t(view)] = radiographPicture(c, case_dir, view, bones, model.skeleton, X_WB);
+  for (int view = 0; view < int(c.images.size()); ++view)
+    document.radiographs.push_back(radiographPicture(c, case_dir, view, bones, model.skeleton, X_WB));
 
   model.musculature = onBones(model.musculature, bones);
   model.bones = std::make_shared<const std::vector<BoneMesh>>(bones);

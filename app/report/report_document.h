@@ -1,7 +1,7 @@
 #pragma once
 #include <QImage>
-#include <array>
 #include <filesystem>
+#include <vector>
 
 #include "app/report/radiograph_picture.h"
 #include "clinical/report/report.h"
@@ -17,7 +17,7 @@ struct ModelPlate {
 /// Everything that the pages show: text, tables and pictures.
 struct ReportDocument {
   Report report;
-  std::array<RadiographPicture, 2> radiographs;
+  std::vector<RadiographPicture> radiographs;
   std::vector<ModelPlate> plates;  ///< front and side with mechanical axes, oblique with the muscles
 };
 

@@ -38,9 +38,9 @@ struct CaseImage {
   friend bool operator==(const CaseImage&, const CaseImage&) = default;
 };
 
-/// Images of a bead phantom in the same two views, and its known bead positions (CSV name,x_mm,y_mm,z_mm).
+/// Images of a bead phantom in the same views, one each, and its known bead positions (CSV name,x_mm,y_mm,z_mm).
 struct PhantomImages {
-  std::array<FileReference, 2> images;
+  std::vector<FileReference> images;
   FileReference beads;
   friend bool operator==(const PhantomImages&, const PhantomImages&) = default;
 };
@@ -66,7 +66,7 @@ struct Truth {
 struct Case {
   Patient patient;
   // entered
-  std::vector<CaseImage> images;            ///< view 1 (frontal), view 2 (lateral)
+  std::vector<CaseImage> images;            ///< view 1 (frontal), view 2 (lateral), others
   std::optional<PhantomImages> phantom;     ///< calibrate from these ...
   std::optional<BiplanarRig> imported_rig;  ///< ... or take this ...; neither: geometry from the DICOM tags
   std::vector<Sighting> sightings;

@@ -29,6 +29,13 @@ std::optional<T> optionalFromJson(const JsonReader& json, std::string_view membe
   return read(*found);
 }
 
+template <class T, class Write>
+Json listToJson(const std::vector<T>& items, Write write) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(write(item));
+  return list;
+}
+
 Json referenceToJson(const FileReference& file) {
   return {{"path", file.path}, {"sha256", file.sha256}};
 }
@@ -88,14 +95,15 @@ CaseImage imageFromJson(const JsonReader& json) {
 }
 
 Json phantomToJson(const PhantomImages& phantom) {
-  return {{"images", {referenceToJson(phantom.images[0]), referenceToJson(phantom.images[1])}},
-          {"beads", referenceToJson(phantom.beads)}};
+  return {{"images", listToJson(phantom.images, referenceToJson)}, {"beads", referenceToJson(phantom.beads)}};
 }
 
 PhantomImages phantomFromJson(const JsonReader& json) {
   json.allowOnly({"images", "beads"});
-  const auto images = json["images"].items(2);
-  return {{referenceFromJson(images[0]), referenceFromJson(images[1])}, referenceFromJson(json["beads"])};
+  PhantomImages phantom{{}, referenceFromJson(json["beads"])};
+  for (const auto& image : json["images"].items()) phantom.images.push_back(referenceFromJson(image));
+  if (phantom.images.size() < 2) json["images"].fail("two images or more");
+  return phantom;
 }
 
 Json sightingToJson(const Sighting& s) {
@@ -106,16 +114,9 @@ Json sightingToJson(const Sighting& s) {
 Sighting sightingFromJson(const JsonReader& json) {
   json.allowOnly({"name", "view", "u_px", "v_px", "sigma_px"});
   return {json["name"].text(),
-          json["view"].integer(1, 2) - 1,
+          json["view"].integer(1, kMaxViews) - 1,
           {json["u_px"].number(), json["v_px"].number()},
           json["sigma_px"].positive()};
-}
-
-template <class T, class Write>
-Json listToJson(const std::vector<T>& items, Write write) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push_back(write(item));
-  return list;
 }
 
 Json resultsToJson(const Case& c) {

@@ -28,10 +28,12 @@ CaseImage importRadiograph(const std::filesystem::path& source, const std::files
 Case makeCase(const NewCase& wanted, const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "case.json"))
     throw InputError{{folder.string(), "folder", "one without a case", "a case.json"}};
+  if (wanted.images.size() < 2)
+    throw InputError{{folder.string(), "radiographs", "two or more", std::to_string(wanted.images.size())}};
   Case c;
   c.patient = wanted.patient;
   for (const auto& image : wanted.images) readRadiograph(image, wanted.declared_spacing_mm);
-  for (int view = 0; view < 2; ++view)
+  for (int view = 0; view < int(wanted.images.size()); ++view)
     c.images.push_back(importRadiograph(wanted.images[std::size_t(view)], folder, view, wanted.declared_spacing_mm));
   fillFromTags(c.patient, readRadiograph(wanted.images[0], wanted.declared_spacing_mm).tags);
   saveCase(c, folder);

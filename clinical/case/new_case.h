@@ -1,7 +1,7 @@
 #pragma once
-#include <array>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "clinical/case/case.h"
 #include "imaging/radiograph/radiograph.h"
@@ -10,9 +10,9 @@ namespace sinew {
 
 /// What a person states for a new case.
 struct NewCase {
-  Patient patient;                              ///< empty fields are taken from the frontal image's tags
-  std::array<std::filesystem::path, 2> images;  ///< frontal, lateral
-  std::optional<double> declared_spacing_mm;    ///< for files that carry no pixel size
+  Patient patient;                            ///< empty fields are taken from the frontal image's tags
+  std::vector<std::filesystem::path> images;  ///< frontal, lateral, others
+  std::optional<double> declared_spacing_mm;  ///< for files that carry no pixel size
 };
 
 /// Makes the case folder: copies the images under names without patient data and stores the case.

@@ -4,11 +4,11 @@
 
 namespace sinew {
 
-std::array<Radiograph, 2> readPair(const Case& c, const PipelineContext& context) {
-  const auto read = [&](const CaseImage& image) {
-    return readRadiograph(checkedFile(image.file, context.case_dir), image.declared_spacing_mm);
-  };
-  return {read(c.images.at(0)), read(c.images.at(1))};
+std::vector<Radiograph> readImages(const Case& c, const PipelineContext& context) {
+  std::vector<Radiograph> images;
+  for (const auto& image : c.images)
+    images.push_back(readRadiograph(checkedFile(image.file, context.case_dir), image.declared_spacing_mm));
+  return images;
 }
 
 std::string viewName(std::size_t i) {

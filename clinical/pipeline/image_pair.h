@@ -1,14 +1,14 @@
 #pragma once
-#include <array>
 #include <string>
+#include <vector>
 
 #include "clinical/pipeline/pipeline.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
 
-/// Both radiographs of a case. @throws InputError if one is missing, changed or unreadable.
-std::array<Radiograph, 2> readPair(const Case& c, const PipelineContext& context);
+/// The radiographs of a case. @throws InputError if one is missing, changed or unreadable.
+std::vector<Radiograph> readImages(const Case& c, const PipelineContext& context);
 /// "view 1"
 std::string viewName(std::size_t i);
 /// "2022 x 4045 px"

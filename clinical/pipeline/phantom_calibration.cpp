@@ -6,28 +6,29 @@
 
 namespace sinew {
 
-BeadCalibration calibrateFromPhantom(const std::array<std::filesystem::path, 2>& images,
+BeadCalibration calibrateFromPhantom(std::span<const std::filesystem::path> images,
                                      const std::filesystem::path& beads, const Job& job) {
   const CalibrationObject object = loadCalibrationObject(beads);
-  std::array<Radiograph, 2> radiographs;
-  std::array<std::vector<DetectedBead>, 2> detected;
-  for (std::size_t i = 0; i < 2; ++i) {
-    job.report(0.1 + 0.3 * static_cast<double>(i), "finding the beads of the phantom, view " + std::to_string(i + 1));
-    radiographs[i] = readRadiograph(images[i]);
-    detected[i] = detectBeads(radiographs[i]);
+  std::vector<Radiograph> radiographs;
+  std::vector<std::vector<DetectedBead>> detected;
+  for (const auto& image : images) {
+    const double share = static_cast<double>(detected.size()) / static_cast<double>(images.size());
+    job.report(0.1 + 0.6 * share, "finding the beads of the phantom, view " + std::to_string(detected.size() + 1));
+    radiographs.push_back(readRadiograph(image));
+    detected.push_back(detectBeads(radiographs.back()));
     if (job.cancelled()) return {.outcome = Outcome::Cancelled};
   }
   job.report(0.7, "geometry from the beads");
-  return calibrateFromBeads(object, detected, rigFromDicom(radiographs[0], radiographs[1]), {}, job);
+  return calibrateFromBeads(object, detected, rigFromDicom(radiographs), {}, job);
 }
 
-BeadCalibration calibrateFromPickedBeads(const std::array<std::filesystem::path, 2>& images,
+BeadCalibration calibrateFromPickedBeads(std::span<const std::filesystem::path> images,
                                          const std::filesystem::path& beads, const std::filesystem::path& sightings,
                                          const Job& job) {
-  std::array<Eigen::Vector2i, 2> sizes_px;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Radiograph radiograph = readRadiograph(images[i]);
-    sizes_px[i] = {radiograph.width_px, radiograph.height_px};
+  std::vector<Eigen::Vector2i> sizes_px;
+  for (const auto& image : images) {
+    const Radiograph radiograph = readRadiograph(image);
+    sizes_px.emplace_back(radiograph.width_px, radiograph.height_px);
   }
   return calibrateFromSightings(loadCalibrationObject(beads), loadSightings(sightings), sizes_px, {}, job);
 }

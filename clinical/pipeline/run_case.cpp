@@ -48,7 +48,10 @@ std::size_t stagesAhead(const Case& c, const RunRequest& request, const Pipeline
 std::vector<FileReference> enteredFiles(const Case& c) {
   std::vector<FileReference> files;
   for (const auto& image : c.images) files.push_back(image.file);
-  if (c.phantom) files.insert(files.end(), {c.phantom->images[0], c.phantom->images[1], c.phantom->beads});
+  if (c.phantom) {
+    files.insert(files.end(), c.phantom->images.begin(), c.phantom->images.end());
+    files.push_back(c.phantom->beads);
+  }
   return files;
 }
 

@@ -14,7 +14,10 @@ namespace {
 
 std::string inputs(const Case& c) {
   const auto hashes = [](const PhantomImages& phantom) {
-    return Json::array({phantom.images[0].sha256, phantom.images[1].sha256, phantom.beads.sha256});
+    Json list = Json::array();
+    for (const auto& image : phantom.images) list.push_back(image.sha256);
+    list.push_back(phantom.beads.sha256);
+    return list;
   };
   return inputText({{"images", imageInputs(c.images)},
                     {"phantom", orNull(c.phantom, hashes)},
@@ -40,25 +43,29 @@ std::string summaryOf(const BiplanarRig& rig) {
   return text;
 }
 
-/// Geometry of the two views, from bead phantom, imported rig or DICOM attributes.
+/// Geometry of the views, from bead phantom, imported rig or DICOM attributes.
 StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   if (c.phantom && c.imported_rig)
     throw InputError{{"calibration", "geometry", "images of a phantom or a rig file", "both"}};
-  const auto images = readPair(c, context);
+  const auto images = readImages(c, context);
   StageRun run;
   std::size_t beads = 0;
   if (c.phantom) {
     const auto file = [&](const FileReference& reference) { return checkedFile(reference, context.case_dir); };
-    auto calibration =
-        calibrateFromPhantom({file(c.phantom->images[0]), file(c.phantom->images[1])}, file(c.phantom->beads), job);
+    std::vector<std::filesystem::path> phantom;
+    for (const auto& image : c.phantom->images) phantom.push_back(file(image));
+    auto calibration = calibrateFromPhantom(phantom, file(c.phantom->beads), job);
     run.outcome = calibration.outcome;
     if (run.outcome != Outcome::Converged) return run;
     beads = calibration.residuals.size();
     c.rig = std::move(calibration.rig);
   } else {
-    c.rig = c.imported_rig ? *c.imported_rig : rigFromDicom(images[0], images[1]);
+    c.rig = c.imported_rig ? *c.imported_rig : rigFromDicom(images);
   }
-  for (std::size_t i = 0; i < 2; ++i) expectSameSize(c.rig->views[i], images[i], i);
+  if (c.rig->views.size() != images.size())
+    throw InputError{{"calibration", "views", std::to_string(images.size()) + ", one for every radiograph",
+                      std::to_string(c.rig->views.size())}};
+  for (std::size_t i = 0; i < images.size(); ++i) expectSameSize(c.rig->views[i], images[i], i);
   addWarnings(run.warnings, c.rig->calibration.warnings);
   run.summary = summaryOf(*c.rig);
   if (beads) run.summary += ", " + std::to_string(beads) + " beads seen";
@@ -91,7 +98,7 @@ constinit const StageRow kCalibrationRow{.stage = Stage::Calibration,
                                          .has_result = hasResult,
                                          .run = run,
                                          .copy_result = copyResult,
-                                         .to_enter = "State the geometry of the two radiographs.",
+                                         .to_enter = "State the geometry of the radiographs.",
                                          .entered = entered,
                                          .result_line = resultLine};
 

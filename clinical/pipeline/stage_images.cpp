@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <functional>
+
 #include "clinical/pipeline/image_pair.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
@@ -17,38 +20,56 @@ bool hasResult(const Case& c) {
 }
 
 std::string missing(const Case& c, StageState) {
-  if (c.images.size() == 2) return {};
+  if (c.images.size() >= 2) return {};
   return "two radiographs are needed, there " +
          std::string(c.images.size() == 1 ? "is 1" : "are " + std::to_string(c.images.size()));
 }
 
-/// Doubts whether two radiographs were taken of one person on one occasion. Says nothing about who it is.
-Warnings pairDoubts(const std::array<Radiograph, 2>& images) {
-  const RadiographTags &a = images[0].tags, &b = images[1].tags;
+/// Doubts whether the radiographs were taken of one person on one occasion. Says nothing about who it is.
+Warnings doubtsAbout(const std::vector<Radiograph>& images) {
+  const std::string which = images.size() == 2 ? "the two radiographs" : "the radiographs";
+  const auto values = [&](std::string RadiographTags::*field) {
+    std::vector<std::string> stated;
+    for (const auto& image : images)
+      if (!(image.tags.*field).empty()) stated.push_back(image.tags.*field);
+    return stated;
+  };
+  const auto differ = [&](std::string RadiographTags::*field) {
+    const auto stated = values(field);
+    return std::ranges::adjacent_find(stated, std::ranges::not_equal_to{}) != stated.end();
+  };
   Warnings warnings;
-  const auto differ = [](const std::string& x, const std::string& y) { return !x.empty() && !y.empty() && x != y; };
-  if (differ(a.patient_id, b.patient_id) || differ(a.patient_birth_date, b.patient_birth_date))
-    warnings.push_back({"different_patients", "the two radiographs name different patients"});
-  if (differ(a.study_date, b.study_date))
-    warnings.push_back({"different_dates", "the two radiographs were taken on different days"});
-  if (differ(a.view_position, b.view_position) == false && !a.view_position.empty() && !b.view_position.empty())
-    warnings.push_back({"same_view", "both radiographs say view position " + a.view_position});
+  if (differ(&RadiographTags::patient_id) || differ(&RadiographTags::patient_birth_date))
+    warnings.push_back({"different_patients", which + " name different patients"});
+  if (differ(&RadiographTags::study_date))
+    warnings.push_back({"different_dates", which + " were taken on different days"});
+  const auto positions = values(&RadiographTags::view_position);
+  if (positions.size() == images.size() && !differ(&RadiographTags::view_position))
+    warnings.push_back({"same_view", (images.size() == 2 ? "both" : "all") +
+                                         std::string{" radiographs say view position "} + positions.front()});
   return warnings;
 }
 
-/// Reads both radiographs and asks whether they are a pair.
+/// @throws InputError if two images are the same file.
+void requireDifferentFiles(const std::vector<CaseImage>& images) {
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (images[i].file.sha256 == images[k].file.sha256)
+        throw InputError{{"images", viewName(i), "another radiograph than " + viewName(k), "the same file twice"}};
+}
+
+/// Reads the radiographs and asks whether they belong together.
 StageRun run(Case& c, const PipelineContext& context, const Job&) {
-  if (c.images[0].file.sha256 == c.images[1].file.sha256)
-    throw InputError{{"images", "view 2", "another radiograph than view 1", "the same file twice"}};
-  const auto images = readPair(c, context);
+  requireDifferentFiles(c.images);
+  const auto images = readImages(c, context);
   StageRun run;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
     addWarnings(run.warnings, images[i].warnings, viewName(i));
     const auto& spacing = images[i].spacing;
     run.summary += (i ? "; " : "") + viewName(i) + " " + sizeText(images[i].width_px, images[i].height_px) + ", " +
                    (spacing ? rounded(spacing->column_mm, 3) + " mm a pixel" : "pixel size not stated");
   }
-  addWarnings(run.warnings, pairDoubts(images));
+  addWarnings(run.warnings, doubtsAbout(images));
   return run;
 }
 

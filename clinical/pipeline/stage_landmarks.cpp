@@ -34,7 +34,7 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kMost ? text + ", ..." : text;
 }
 
-/// Which points the skeleton does not know, and which landmarks of the protocol nobody picked in both views.
+/// Which points the skeleton does not know, and which landmarks of the protocol nobody picked in two views.
 Warnings coverage(const Case& c, const PipelineContext& context) {
   const auto& landmarks = context.reference->skeleton.landmarks;
   std::vector<std::string> known, foreign;
@@ -59,17 +59,18 @@ Warnings coverage(const Case& c, const PipelineContext& context) {
       missing.push_back(wanted.name);
   if (!missing.empty())
     warnings.push_back({"landmarks_missing", counted(missing.size(), "landmark", "landmarks") +
-                                                 " of the protocol not seen in both views: " + listed(missing)});
+                                                 " of the protocol not seen in two views: " + listed(missing)});
   return warnings;
 }
 
-/// Position of every landmark seen in both views, and which ones of the protocol are missing.
+/// Position of every landmark seen in two views or more, and which ones of the protocol are missing.
 StageRun run(Case& c, const PipelineContext& context, const Job&) {
   StageRun run;
   c.landmarks = triangulateAll(*c.rig, c.sightings);
   addWarnings(run.warnings, c.landmarks->warnings);
   addWarnings(run.warnings, coverage(c, context));
-  run.summary = std::to_string(c.landmarks->points.size()) + " points in both views";
+  run.summary = std::to_string(c.landmarks->points.size()) +
+                (c.rig->views.size() == 2 ? " points in both views" : " points in two views or more");
   if (std::isfinite(c.landmarks->rms_px)) run.summary += ", RMS " + rounded(c.landmarks->rms_px, 2) + " px";
   return run;
 }
@@ -103,7 +104,7 @@ constinit const StageRow kLandmarksRow{.stage = Stage::Landmarks,
                                        .missing = missing,
                                        .run = run,
                                        .copy_result = copyResult,
-                                       .to_enter = "Place landmarks in both radiographs.",
+                                       .to_enter = "Place landmarks in two radiographs or more.",
                                        .entered = entered,
                                        .result_line = resultLine};
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "clinical/pipeline/patient_fit.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
@@ -8,8 +9,9 @@
 namespace sinew {
 namespace {
 
-constexpr const char* kResources[] = {"clinical/shape_priors.json", "rom/average-adult.json",
-                                      "skeleton/landmarks.csv", "skeleton/reference_skeleton.json"};
+constexpr const char* kResources[] = {"clinical/landmark_protocol.json", "clinical/shape_priors.json",
+                                      "rom/average-adult.json", "skeleton/landmarks.csv",
+                                      "skeleton/reference_skeleton.json"};
 
 std::string inputs(const Case& c) {
   return inputText({{"rig", orNull(c.rig, rigToJson)}, {"sightings", sightingInputs(c.sightings)}});
@@ -28,12 +30,6 @@ std::string missing(const Case& c, StageState landmarks) {
   return foreign ? "no known landmark of the skeleton has been picked" : "";
 }
 
-std::vector<LandmarkObservation> observationsOf(const std::vector<Sighting>& sightings) {
-  std::vector<LandmarkObservation> list;
-  for (const auto& s : sightings) list.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-  return list;
-}
-
 std::string summaryOf(const SkeletonFit& fit) {
   std::string text = "RMS " + rounded(fit.rms_px, 2) + " px";
   for (const auto& figure : fit.figures)
@@ -48,9 +44,7 @@ StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   if (!c.rig->patient_aligned)
     run.warnings.push_back({"not_patient_aligned", "the world frame of the geometry is not the patient's"});
-  const auto observations = observationsOf(c.sightings);
-  const auto priors = loadShapePriors(context.resource_dir);
-  c.skeleton = fitSkeleton(context.reference->skeleton, c.rig->views, observations, priors, {}, job);
+  c.skeleton = fitPatient(context.reference->skeleton, *c.rig, c.sightings, context.resource_dir, job);
   addWarnings(run.warnings, c.skeleton->warnings);
   run.outcome = c.skeleton->outcome;
   run.summary = summaryOf(*c.skeleton);
@@ -74,7 +68,7 @@ std::string resultLine(const Case& c) {
 constinit const StageRow kSkeletonRow{.stage = Stage::Skeleton,
                                       .name = "skeleton",
                                       .title = "Skeleton",
-                                      .revision = 1,
+                                      .revision = 2,
                                       .resources = kResources,
                                       .inputs = inputs,
                                       .has_result = hasResult,

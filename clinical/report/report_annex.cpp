@@ -22,8 +22,11 @@ std::string landmarkText(const std::string& name) {
   return bare.size() == name.size() ? bare : bare + (sideSign(name) < 0 ? ", left" : ", right");
 }
 
-const char* viewText(int view) {
-  return view == 0 ? "frontal" : "lateral";
+/// "frontal", "lateral", "view 3"
+std::string viewText(const Case& c, int view) {
+  std::string text = viewTitle(c.rig->views, view);
+  text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::string orNotRecorded(const std::string& text) {
@@ -45,13 +48,13 @@ ReportTable landmarkTable(const Case& c) {
   for (const auto& r : residuals) {
     if (table.rows.size() == kWorst) break;
     const auto sd = sd_mm.find(r.landmark);
-    table.rows.push_back({landmarkText(r.landmark), viewText(r.view), signedText(r.residual_px.x(), 1),
+    table.rows.push_back({landmarkText(r.landmark), viewText(c, r.view), signedText(r.residual_px.x(), 1),
                           signedText(r.residual_px.y(), 1), numberText(r.sigmas, 1),
                           sd == sd_mm.end() ? "seen once" : numberText(sd->second, 1)});
   }
   table.footnote = "Residual = picked - projected, largest first (" + std::to_string(table.rows.size()) + " of " +
                    std::to_string(residuals.size()) +
-                   " picks). 3-D SD: root mean square of the three axes, from the two views alone.";
+                   " picks). 3-D SD: root mean square of the three axes, from the views alone.";
   return table;
 }
 
@@ -84,7 +87,7 @@ ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir
   table.columns = {"View", "Date", "Size, px", "Modality", "SOP instance UID", "SHA-256 (first 16)"};
   for (std::size_t i = 0; i < c.images.size(); ++i) {
     const auto image = readRadiograph(checkedFile(c.images[i].file, case_dir), c.images[i].declared_spacing_mm);
-    table.rows.push_back({viewText(int(i)), orNotRecorded(dateText(image.tags.study_date)),
+    table.rows.push_back({viewText(c, int(i)), orNotRecorded(dateText(image.tags.study_date)),
                           std::to_string(image.width_px) + " x " + std::to_string(image.height_px),
                           orNotRecorded(image.tags.modality), orNotRecorded(image.tags.sop_instance_uid),
                           c.images[i].file.sha256.substr(0, 16)});

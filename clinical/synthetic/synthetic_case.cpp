@@ -52,7 +52,7 @@ SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const 
   patient.shape = drawPatientShape(loadShapePriors(options.resource_dir), shape_source);
   const Skeleton skeleton = deformedSkeleton(reference_skeleton, patient.shape);
   patient.posture = drawPatientPosture(skeleton, floorHeight_m(options.rig), posture_source);
-  patient.true_rig = drawTrueRig(options.rig, options.seed, options.binning);
+  patient.true_rig = drawTrueRig(options.rig, options.seed, options.binning, options.views);
   patient.sightings = drawSightings(skeleton, patient.posture, patient.true_rig, options.resource_dir,
                                     options.picking_noise_mm, picking_source);
   patient.patient = identityOf(skeleton, options.seed);
@@ -72,24 +72,27 @@ Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference,
   c.sightings = patient.sightings;
   c.exam = patient.exam;
   c.truth = patient.truth;
-  const auto films = filmGeometry(options.rig, options.binning);
+  const auto films = filmGeometry(options.rig, options.binning, options.views);
   const Model model = deformedModel(reference, patient.shape);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double from = 0.4 * double(i);
+  const double share = 0.8 / double(films.size());
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const double from = share * double(i);
     const Radiograph image = renderRadiograph(model, patient.posture, patient.true_rig.views[i], options,
-                                              films[i].view_position, partOf(job, from, from + 0.4));
+                                              films[i].view_position, partOf(job, from, from + share));
     if (job.cancelled()) return {};
     c.images.push_back({writeImage(image, folder, "images/view" + std::to_string(i + 1) + ".dcm"), {}});
   }
   if (options.rig == SyntheticRig::ConeBeam) {
     const CalibrationObject phantom = syntheticPhantom();
     c.phantom.emplace();
-    for (std::size_t i = 0; i < 2; ++i) {
-      job.report(0.8 + 0.1 * double(i), "rendering the bead phantom, view " + std::to_string(i + 1));
+    for (std::size_t i = 0; i < films.size(); ++i) {
+      job.report(0.8 + 0.2 * double(i) / double(films.size()),
+                 "rendering the bead phantom, view " + std::to_string(i + 1));
       const Radiograph image =
           renderPhantom(phantom, patient.true_rig.views[i], options, films[i].view_position, {{}, job.stop});
       if (job.cancelled()) return {};
-      c.phantom->images[i] = writeImage(image, folder, "calibration/phantom_view" + std::to_string(i + 1) + ".dcm");
+      c.phantom->images.push_back(
+          writeImage(image, folder, "calibration/phantom_view" + std::to_string(i + 1) + ".dcm"));
     }
     const std::string beads = "calibration/beads.csv";
     saveCalibrationObject(phantom, folder / beads);

@@ -17,6 +17,7 @@ struct SyntheticOptions {
   std::filesystem::path resource_dir;  ///< priors, landmark protocol, examination tests
   unsigned seed = 1;
   SyntheticRig rig = SyntheticRig::ConeBeam;
+  int views = 2;                  ///< 3: with an oblique film (cone beam)
   double picking_noise_mm = 1.0;  ///< SD of a landmark pick, in the plane of the patient
   double exam_noise_deg = 0;
   bool noise_in_images = true;
@@ -39,7 +40,7 @@ SyntheticPatient drawSyntheticPatient(const RetargetReference& reference, const 
 
 /// Radiograph of posed bones and a soft-tissue envelope: attenuation (Beer-Lambert; fat, muscle, compact and spongy
 /// bone) integrated along the ray of every pixel, scatter, quantum noise, detector blur, R/L marker, collimation; a
-/// true DX image in memory. `view_position` is that of one of the rig's films ("AP", "LL"; "PA", "LL"), whose
+/// true DX image in memory. `view_position` is that of one of the rig's films ("AP", "LL", "LPO"; "PA", "LL"), whose
 /// geometry tags it gets; `view` may be any view of the same field. No pixels if the job was cancelled.
 Radiograph renderRadiograph(const Model& model, const Posture& posture, const View& view,
                             const SyntheticOptions& options, const std::string& view_position, const Job& job = {});
@@ -48,7 +49,7 @@ Radiograph renderRadiograph(const Model& model, const Posture& posture, const Vi
 Radiograph renderPhantom(const CalibrationObject& phantom, const View& view, const SyntheticOptions& options,
                          const std::string& view_position, const Job& job = {});
 
-/// Writes a whole case folder: two DICOM radiographs, phantom images and beads (cone beam), picks, exam, truth.
+/// Writes a whole case folder: the DICOM radiographs, phantom images and beads (cone beam), picks, exam, truth.
 /// The case has run no stage yet. Cancelled: returns an empty case and leaves no case.json.
 Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference, const SyntheticOptions& options,
                         const std::filesystem::path& folder, const Job& job = {});

@@ -87,6 +87,13 @@ Posture withSolesLevel(const Skeleton& skeleton, const Stance& stance, Degrees& 
   return postureFromDegrees(skeleton, degrees);
 }
 
+/// Whether the protocol asks for the landmark in a view of this role: what lies half way between shows both.
+bool isAskedFor(const ProtocolLandmark& wanted, ViewRole role) {
+  constexpr int kFrontal = 0, kLateral = 1;
+  if (!isFrontal(role) && !isLateral(role)) return !wanted.views.empty();
+  return std::ranges::find(wanted.views, isFrontal(role) ? kFrontal : kLateral) != wanted.views.end();
+}
+
 /// Pixels per metre at `p_W`, in the plane across the beam: the mean over both image axes.
 double magnification_px_per_m(const View& view, const Eigen::Vector3d& p_W) {
   constexpr double kStep_m = 1e-3;
@@ -106,7 +113,7 @@ ShapeParameters drawPatientShape(const std::vector<ShapePrior>& priors, RandomSo
   std::map<std::string, double> common;
   for (const auto& prior : priors) {
     const auto at = std::find(names.begin(), names.end(), prior.parameter);
-    if (at == names.end()) continue;
+    if (at == names.end() || prior.deformity) continue;
     const auto [entry, is_new] = common.try_emplace(withoutSideOf(prior.parameter), 0.0);
     if (is_new) entry->second = random.truncatedNormal();
     const bool sided = entry->first != prior.parameter;
@@ -155,8 +162,9 @@ std::vector<Sighting> drawSightings(const Skeleton& skeleton, const Posture& pos
   for (const auto& wanted : loadLandmarkProtocol(resource_dir)) {
     const Landmark& landmark = skeleton.landmark(wanted.name);
     const Eigen::Vector3d p_W = X_WB[std::size_t(landmark.segment)] * landmark.p_BL;
-    for (const int i : wanted.views) {
-      const View& view = rig.views[std::size_t(i)];
+    for (int i = 0; i < int(rig.views.size()); ++i) {
+      const RigView& view = rig.views[std::size_t(i)];
+      if (!isAskedFor(wanted, view.role)) continue;
       const Eigen::Vector2d noise{random.normal(), random.normal()};  // drawn also if not seen: others stay the same
       const auto uv_px = project(view, p_W);
       if (!uv_px || std::min({uv_px->x(), uv_px->y(), view.width_px - 1 - uv_px->x(),

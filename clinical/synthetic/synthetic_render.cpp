@@ -9,9 +9,9 @@
 namespace sinew {
 namespace {
 
-/// Geometry that the tags of this film state, and its index in the pair.
+/// Geometry that the tags of this film state, and its index among them.
 std::pair<FilmGeometry, std::size_t> filmOf(const SyntheticOptions& options, const std::string& view_position) {
-  const auto films = filmGeometry(options.rig, options.binning);
+  const auto films = filmGeometry(options.rig, options.binning, options.views);
   const auto film =
       std::find_if(films.begin(), films.end(), [&](const auto& f) { return f.view_position == view_position; });
   require(film != films.end(), "view position of one of the rig's films");

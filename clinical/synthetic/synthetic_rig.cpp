@@ -17,8 +17,10 @@ Eigen::Matrix3d viewAxes(const FilmGeometry& film) {
     R_CW << left, down, -forward;
   else if (film.view_position == "PA")
     R_CW << left, down, forward;  // mirrored, to be read like AP: a left-handed view frame
+  else if (film.view_position == "LL")
+    R_CW << forward, down, left;  // the left side at the detector
   else
-    R_CW << forward, down, left;  // LL: the left side at the detector
+    R_CW << (forward + left).normalized(), down, (left - forward).normalized();  // LPO: left and back at the detector
   return R_CW;
 }
 
@@ -45,14 +47,19 @@ std::string nameOf(SyntheticRig kind) {
   return kind == SyntheticRig::ConeBeam ? "cone-beam" : "slot-scan";
 }
 
-std::array<FilmGeometry, 2> filmGeometry(SyntheticRig kind, int binning) {
+std::vector<FilmGeometry> filmGeometry(SyntheticRig kind, int binning, int views) {
+  require(views == 2 || (views == 3 && kind == SyntheticRig::ConeBeam), "two views, or three cone beams");
   // Long-leg stand: three detector panels of 0.43 m and a little, 0.28 mm pixels; isocentre 0.25 / 0.35 m before it.
-  std::array<FilmGeometry, 2> films{FilmGeometry{"AP", "L\\F", 0.28, 3000, 2750, 1536, 4864},
-                                    FilmGeometry{"LL", "A\\F", 0.28, 3000, 2650, 1536, 4864}};
+  std::vector<FilmGeometry> films{{"AP", "L\\F", 0.28, 3000, 2750, 1536, 4864, {}},
+                                  {"LL", "A\\F", 0.28, 3000, 2650, 1536, 4864, {}}};
   // Distances of the common slot scanner (987 and 918 mm to the isocentre, about 1.3 m to the detectors).
   if (kind == SyntheticRig::SlotScan)
-    films = {FilmGeometry{"PA", "L\\F", 0.25, 1300, 987, 1800, 7400},
-             FilmGeometry{"LL", "A\\F", 0.25, 1300, 918, 1800, 7400}};
+    films = {{"PA", "L\\F", 0.25, 1300, 987, 1800, 7400, {}}, {"LL", "A\\F", 0.25, 1300, 918, 1800, 7400, {}}};
+  if (views == 3) {
+    films.push_back({"LPO", "AL\\F", 0.28, 3000, 2700, 2048, 4864, 135});
+    films[0].primary_angle_deg = 180;
+    films[1].primary_angle_deg = 90;
+  }
   for (auto& film : films) {
     film.pixel_mm *= binning;
     film.width_px /= binning;
@@ -65,20 +72,25 @@ double floorHeight_m(SyntheticRig kind) {
   return kind == SyntheticRig::ConeBeam ? -0.585 : -0.89;
 }
 
-BiplanarRig nominalRig(SyntheticRig kind, int binning) {
-  const auto films = filmGeometry(kind, binning);
+BiplanarRig nominalRig(SyntheticRig kind, int binning, int views) {
+  const auto films = filmGeometry(kind, binning, views);
   BiplanarRig rig;
-  rig.views = {nominalView(films[0], kind), nominalView(films[1], kind)};
+  rig.views.clear();
+  for (int i = 0; i < int(films.size()); ++i) {
+    RigView view{nominalView(films[std::size_t(i)], kind), ViewRole::Other, kind == SyntheticRig::SlotScan ? 0 : i};
+    view.role = roleOfBeam(view);
+    rig.views.push_back(view);
+  }
   rig.calibration.method = kind == SyntheticRig::ConeBeam ? "dicom_nominal" : "dicom_slot_scan";
   return rig;
 }
 
-BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed, int binning) {
-  BiplanarRig rig = nominalRig(kind, binning);
+BiplanarRig drawTrueRig(SyntheticRig kind, std::uint64_t seed, int binning, int views) {
+  BiplanarRig rig = nominalRig(kind, binning, views);
   if (kind == SyntheticRig::SlotScan) return rig;
-  const auto films = filmGeometry(kind, binning);
+  const auto films = filmGeometry(kind, binning, views);
   RandomSource random{seed, 11};
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < films.size(); ++i) {
     View& view = rig.views[i];
     const auto small = [&](double sd) { return sd * random.truncatedNormal(); };
     const Eigen::Vector3d turn_rad{small(0.2 * kRadPerDeg), small(0.2 * kRadPerDeg), small(0.3 * kRadPerDeg)};
@@ -97,6 +109,7 @@ void setGeometryTags(Radiograph& film, const FilmGeometry& geometry, SyntheticRi
   RadiographTags& tags = film.tags;
   tags.view_position = geometry.view_position;
   tags.patient_orientation = geometry.patient_orientation;
+  tags.positioner_primary_angle_deg = geometry.primary_angle_deg;
   tags.distance_source_to_detector_mm = geometry.source_to_detector_mm;
   tags.distance_source_to_patient_mm = geometry.source_to_isocenter_mm;
   tags.imager_column_mm = tags.imager_row_mm = geometry.pixel_mm;

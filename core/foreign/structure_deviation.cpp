@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/passive/structure_moments.h"
 #include "core/random_source.h"
-#include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
 namespace {
@@ -35,13 +33,15 @@ bool StructureDeviation::isExact() const {
 }
 
 StructureDeviation structureDeviation(const Model& model,
-                                      const std::function<Eigen::VectorXd(const Posture&)>& theirs) {
+                                      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& theirs) {
   const Skeleton& skeleton = model.skeleton;
   StructureDeviation deviation;
   if (model.passive_moments.empty()) return deviation;
   const auto differences = [&](const Eigen::VectorXd& clinical) -> Eigen::VectorXd {
-    const Posture q = postureFromClinical(skeleton, clinical);
-    return (theirs(q) - structureMoments_Nm(skeleton, model.passive_moments, q)).cwiseAbs();
+    Eigen::VectorXd ours = Eigen::VectorXd::Zero(clinical.size());
+    for (Eigen::Index i = 0; i < ours.size(); ++i)
+      ours[i] = passiveMoment_Nm(model.passive_moments[static_cast<std::size_t>(i)], clinical[i]);
+    return (theirs(clinical) - ours).cwiseAbs();
   };
   for (int i = 0; i < skeleton.coordinateCount(); ++i) {
     const Coordinate& c = skeleton.coordinates[static_cast<std::size_t>(i)];
@@ -68,8 +68,7 @@ StructureDeviation structureDeviation(const Model& model,
 }
 
 StructureDeviation structureDeviation(const Model& model, const ForeignModel& foreign) {
-  return structureDeviation(model, [&](const Posture& posture) {
-    const Eigen::VectorXd clinical = clinicalFromPosture(model.skeleton, posture);
+  return structureDeviation(model, [&](const Eigen::VectorXd& clinical) {
     Eigen::VectorXd moments_Nm = Eigen::VectorXd::Zero(clinical.size());
     for (const ForeignCoordinateForce& force : foreign.coordinate_forces) {
       const int i =

@@ -16,9 +16,10 @@ struct StructureDeviation {
   bool isExact() const;  ///< within 1e-6 N m
 };
 
-/// `theirs`: generalised forces by clinical coordinate at a posture [N m].
+/// `theirs`: generalised forces at clinical coordinates [N m; rad], conjugate to their rates. The arm goes beyond 90
+/// deg of abduction there: these are the coordinates that another program runs through, not clinicalFromPosture().
 StructureDeviation structureDeviation(const Model& model,
-                                      const std::function<Eigen::VectorXd(const Posture&)>& theirs);
+                                      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& theirs);
 /// Of a model that foreignFromModel() made, or one read back from its file: coordinates by name.
 StructureDeviation structureDeviation(const Model& model, const ForeignModel& foreign);
 

@@ -65,14 +65,18 @@ double pixelsPerMillimetre(const View& view, const Eigen::Vector3d& p_W);
 
 namespace detail {
 
-template <class T>
-bool project(const ConeBeam& c, const Vector3<T>& p_C, Eigen::Matrix<T, 2, 1>& uv_px) {
+/// `Pinhole`: a ConeBeam, or the same members as a solver's unknowns. Every residual projects through here.
+template <class T, class Pinhole>
+requires requires(const Pinhole& c) {
+  T(c.fx_px) + T(c.k3);
+}
+bool project(const Pinhole& c, const Vector3<T>& p_C, Eigen::Matrix<T, 2, 1>& uv_px) {
   if (!(p_C.z() > T(1e-6))) return false;
   const T x = p_C.x() / p_C.z(), y = p_C.y() / p_C.z();
   const T r2 = x * x + y * y;
   const T radial = T(1) + r2 * (T(c.k1) + r2 * (T(c.k2) + r2 * T(c.k3)));
-  const T xd = x * radial + T(2 * c.p1) * x * y + T(c.p2) * (r2 + T(2) * x * x);
-  const T yd = y * radial + T(c.p1) * (r2 + T(2) * y * y) + T(2 * c.p2) * x * y;
+  const T xd = x * radial + T(2.0 * c.p1) * x * y + T(c.p2) * (r2 + T(2) * x * x);
+  const T yd = y * radial + T(c.p1) * (r2 + T(2) * y * y) + T(2.0 * c.p2) * x * y;
   uv_px << T(c.fx_px) * xd + T(c.cx_px), T(c.fy_px) * yd + T(c.cy_px);
   return true;
 }

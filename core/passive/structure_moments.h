@@ -17,4 +17,8 @@ Eigen::VectorXd structureMoments_Nm(const Skeleton& skeleton, const PassiveMomen
 /// The energy that they store [J].
 double structureEnergy_J(const Skeleton& skeleton, const PassiveMoments& moments, const Posture& posture);
 
+/// Angular velocity in the joint frame per unit rate of each clinical angle of a ball joint, by column. Generalised
+/// forces are its transposed times the moment vector there.
+Eigen::Matrix3d angleRates(const Skeleton& skeleton, const Joint& joint, const Eigen::Vector3d& angles);
+
 }  // namespace sinew

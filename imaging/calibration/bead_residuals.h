@@ -3,13 +3,46 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry/rigid_transform.h"
+#include "core/geometry/view.h"
 
 namespace sinew {
 
-/// Error of one bead in one view: residual[2] = (observed - projected) / sigma [-], with
-/// p_C = R0 exp(w) p_W + t,  u = f x/z (1 + k1 r^2) + cx,  v = a f y/z (1 + k1 r^2) + cy, a = fy / fx of the
-/// detector. Parameter blocks: intrinsics[4] = {f, cx, cy [px], k1}, pose[6] = {w [rad], t [m]}, bead[3] = p_W [m].
+/// The members of a ConeBeam as numbers of a solver.
+template <class T>
+struct PinholeUnknowns {
+  T fx_px, fy_px, cx_px, cy_px, k1, k2, p1, p2, k3;
+};
+
+/// A cone-beam view as a solver's unknowns.
+///   intrinsics[8] = {f, cx, cy [px], k1, k2, p1, p2, k3}: the rows' focal length is `aspect` f,
+///   pose[6] = {w [rad], t [m]}: p_C = R0 exp(w) p_W + t.
+struct ViewUnknowns {
+  static constexpr int kIntrinsics = 8, kFirstDistortion = 3;
+  Eigen::Matrix<double, kIntrinsics, 1> intrinsics;
+  Eigen::Matrix<double, 6, 1> pose;
+  Eigen::Matrix3d R0;
+  double aspect;
+
+  explicit ViewUnknowns(const View& view);  ///< @pre a cone beam
+  /// The view that the unknowns describe; what they do not is as in `start`.
+  View view(const View& start) const;
+
+  template <typename T>
+  static PinholeUnknowns<T> pinhole(const T* intrinsics, double aspect) {
+    return {.fx_px = intrinsics[0],
+            .fy_px = T(aspect) * intrinsics[0],
+            .cx_px = intrinsics[1],
+            .cy_px = intrinsics[2],
+            .k1 = intrinsics[3],
+            .k2 = intrinsics[4],
+            .p1 = intrinsics[5],
+            .p2 = intrinsics[6],
+            .k3 = intrinsics[7]};
+  }
+};
+
+/// Error of one bead in one view: residual[2] = (observed - projected) / sigma [-], projected as everywhere (view.h).
+/// Parameter blocks: intrinsics[8] and pose[6] of ViewUnknowns, bead[3] = p_W [m].
 class BeadProjectionResidual {
  public:
   BeadProjectionResidual(const Eigen::Vector2d& uv_px, double sigma_px, const Eigen::Matrix3d& R0, double aspect)
@@ -19,16 +52,15 @@ class BeadProjectionResidual {
   bool operator()(const T* intrinsics, const T* pose, const T* bead, T* residual) const {
     const Vector3<T> w{pose[0], pose[1], pose[2]}, t{pose[3], pose[4], pose[5]}, p{bead[0], bead[1], bead[2]};
     const Vector3<T> p_C = R0_.cast<T>() * (rotationFromVector<T>(w) * p) + t;
-    if (!(p_C.z() > T(1e-6))) return false;  // behind the source: the step is refused
-    const T x = p_C.x() / p_C.z(), y = p_C.y() / p_C.z();
-    const T stretched = intrinsics[0] * (T(1) + intrinsics[3] * (x * x + y * y));
-    residual[0] = (T(uv_px_.x()) - stretched * x - intrinsics[1]) / T(sigma_px_);
-    residual[1] = (T(uv_px_.y()) - T(aspect_) * stretched * y - intrinsics[2]) / T(sigma_px_);
+    Eigen::Matrix<T, 2, 1> uv_px;
+    // Behind the source: the step is refused.
+    if (!detail::project<T>(ViewUnknowns::pinhole(intrinsics, aspect_), p_C, uv_px)) return false;
+    for (int k = 0; k < 2; ++k) residual[k] = (T(uv_px_[k]) - uv_px[k]) / T(sigma_px_);
     return true;
   }
   static ceres::CostFunction* create(const Eigen::Vector2d& uv_px, double sigma_px, const Eigen::Matrix3d& R0,
                                      double aspect) {
-    return new ceres::AutoDiffCostFunction<BeadProjectionResidual, 2, 4, 6, 3>(
+    return new ceres::AutoDiffCostFunction<BeadProjectionResidual, 2, ViewUnknowns::kIntrinsics, 6, 3>(
         new BeadProjectionResidual{uv_px, sigma_px, R0, aspect});
   }
 

@@ -45,11 +45,11 @@ void describe(BeadCalibration& result, const CalibrationObject& object, const Re
               const std::vector<BeadObservation>& used, const CalibrationOptions& options) {
   result.rms_px = refined.rms_px;
   result.accuracy_mm = refined.accuracy_mm;
-  result.rig.views = refined.views;
+  for (std::size_t i = 0; i < refined.views.size(); ++i) static_cast<View&>(result.rig.views[i]) = refined.views[i];
   result.rig.patient_aligned = options.patient_aligned;
   CalibrationRecord& record = result.rig.calibration;
   record.method = "bead_phantom";
-  record.id = geometryId(refined.views);
+  record.id = geometryId(result.rig.views);
   record.rms_px = refined.rms_px;
   record.accuracy_mm = refined.accuracy_mm;
   for (std::size_t i = 0; i < used.size(); ++i)
@@ -57,7 +57,8 @@ void describe(BeadCalibration& result, const CalibrationObject& object, const Re
   std::stable_sort(
       result.residuals.begin(), result.residuals.end(),
       [](const BeadResidual& a, const BeadResidual& b) { return a.residual_px.norm() > b.residual_px.norm(); });
-  for (int view = 0; view < 2; ++view) {
+  result.unmatched_beads.resize(refined.views.size());
+  for (int view = 0; view < int(refined.views.size()); ++view) {
     auto& unmatched = result.unmatched_beads[std::size_t(view)];
     for (std::size_t b = 0; b < object.beads.size(); ++b)
       if (std::none_of(used.begin(), used.end(),
@@ -74,20 +75,22 @@ void describe(BeadCalibration& result, const CalibrationObject& object, const Re
                                                            " px only: did the object or the tubes move?"});
   if (std::sin(angleBetweenViews_rad(result.rig)) < 0.34)
     record.warnings.push_back({"views_nearly_parallel",
-                               "The two views are less than 20 deg from parallel: depth is "
+                               "The views are less than 20 deg from parallel: depth is "
                                "poorly determined."});
 }
 
+/// `start`: the rig that the refinement starts from, with the roles and exposures of the result.
 BeadCalibration calibrate(const CalibrationObject& object, std::vector<BeadObservation> observations,
-                          const std::array<View, 2>& start, const CalibrationOptions& options, const Job& job) {
+                          const BiplanarRig& start, const CalibrationOptions& options, const Job& job) {
   BeadCalibration result;
-  for (int view : {0, 1}) requireDetermined(object, observations, view);
-  RefinedViews refined = refineViews(object, observations, start, options, job);
+  const int count = int(start.views.size());
+  for (int view = 0; view < count; ++view) requireDetermined(object, observations, view);
+  RefinedViews refined = refineViews(object, observations, projectionsOf(start), options, job);
   for (int round = 0; round < 3 && refined.outcome == Outcome::Converged; ++round) {
     auto kept = withoutOutliers(observations, refined.residual_px);
     if (kept.size() == observations.size()) break;
     observations = std::move(kept);
-    for (int view : {0, 1}) requireDetermined(object, observations, view);
+    for (int view = 0; view < count; ++view) requireDetermined(object, observations, view);
     refined = refineViews(object, observations, refined.views, options, job);
   }
   result.outcome = refined.outcome;
@@ -95,51 +98,82 @@ BeadCalibration calibrate(const CalibrationObject& object, std::vector<BeadObser
   if (!(refined.focal_length_error < kMaxFocalLengthError))
     throw InputError{{kWhere, "beads", "places that determine the geometry",
                       "focal length uncertain by more than 5 %: the beads are too few or too flat"}};
+  result.rig.views = start.views;
   describe(result, object, refined, observations, options);
   return result;
+}
+
+/// Detections of one view that no bead of the result explains.
+std::vector<Eigen::Vector2d> unexplained(const CalibrationObject& object, const std::vector<DetectedBead>& detected,
+                                         const BeadCalibration& result, int view) {
+  std::vector<Eigen::Vector2d> left;
+  for (const auto& seen : detected) {
+    const bool used = std::any_of(result.residuals.begin(), result.residuals.end(), [&](const BeadResidual& r) {
+      const auto bead = std::find_if(object.beads.begin(), object.beads.end(),
+                                     [&](const CalibrationBead& b) { return b.name == r.bead; });
+      const auto uv = project(result.rig.views[std::size_t(view)], bead->p_WQ);
+      return r.view == view && uv && (*uv + r.residual_px - seen.uv_px).norm() < 1e-6;
+    });
+    if (!used) left.push_back(seen.uv_px);
+  }
+  return left;
+}
+
+/// First view by the direct linear transformation.
+View startFromSightings(const CalibrationObject& object, const std::vector<BeadObservation>& observations, int view,
+                        const Eigen::Vector2i& size_px) {
+  requireDetermined(object, observations, view);
+  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector2d> uv_px;
+  for (const auto& o : observations)
+    if (o.view == view) {
+      places.push_back(object.beads[std::size_t(o.bead)].p_WQ);
+      uv_px.push_back(o.uv_px);
+    }
+  auto linear = viewFromDlt(places, uv_px);
+  if (!linear) throw InputError{{viewName(view), "beads", "sightings that determine a view", "a degenerate set"}};
+  linear->width_px = size_px.x();
+  linear->height_px = size_px.y();
+  auto& c = std::get<ConeBeam>(linear->projection);
+  if (std::abs(c.fy_px / c.fx_px - 1) < 0.02) c.fy_px = c.fx_px;  // square pixels, as detectors have
+  return *linear;
 }
 
 }  // namespace
 
 BeadCalibration calibrateFromBeads(const CalibrationObject& object,
-                                   const std::array<std::vector<DetectedBead>, 2>& detected, const BiplanarRig& guess,
+                                   std::span<const std::vector<DetectedBead>> detected, const BiplanarRig& guess,
                                    const CalibrationOptions& options, const Job& job) {
+  require(detected.size() == guess.views.size(), "a list of detections for every view");
   BeadCalibration cancelled;
   cancelled.outcome = Outcome::Cancelled;
   std::vector<BeadObservation> observations;
-  std::array<View, 2> start;
-  for (int view : {0, 1}) {
+  BiplanarRig start = guess;
+  for (int view = 0; view < int(detected.size()); ++view) {
     const auto& seen = detected[std::size_t(view)];
-    if (!std::holds_alternative<ConeBeam>(guess.views[std::size_t(view)].projection))
-      throw InputError{{viewName(view), "projection", "cone beam", projectionName(guess.views[std::size_t(view)])}};
-    const auto match = matchBeads(object, seen, guess.views[std::size_t(view)], job);
+    const View& guessed = guess.views[std::size_t(view)];
+    if (!std::holds_alternative<ConeBeam>(guessed.projection))
+      throw InputError{{viewName(view), "projection", "cone beam", projectionName(guessed)}};
+    const auto match = matchBeads(object, seen, guessed, job);
     if (job.cancelled()) return cancelled;
     if (!match)
       throw InputError{{viewName(view), "beads", "a pose of '" + object.name + "' that explains the round shadows",
                         "none for " + std::to_string(seen.size()) +
                             " shadows: is it the right object, upright and whole in the image?"}};
-    start[std::size_t(view)] = match->view;
+    static_cast<View&>(start.views[std::size_t(view)]) = match->view;
     for (const auto& [bead, detection] : match->pairs)
       observations.push_back(
           {bead, view, seen[std::size_t(detection)].uv_px, seen[std::size_t(detection)].sigma_px, detection});
   }
   BeadCalibration result = calibrate(object, observations, start, options, job);
   if (result.outcome != Outcome::Converged) return result;
-  for (int view : {0, 1})
-    for (const auto& seen : detected[std::size_t(view)]) {
-      const bool used = std::any_of(result.residuals.begin(), result.residuals.end(), [&](const BeadResidual& r) {
-        const auto bead = std::find_if(object.beads.begin(), object.beads.end(),
-                                       [&](const CalibrationBead& b) { return b.name == r.bead; });
-        const auto uv = project(result.rig.views[std::size_t(view)], bead->p_WQ);
-        return r.view == view && uv && (*uv + r.residual_px - seen.uv_px).norm() < 1e-6;
-      });
-      if (!used) result.unmatched_px[std::size_t(view)].push_back(seen.uv_px);
-    }
+  for (int view = 0; view < int(detected.size()); ++view)
+    result.unmatched_px.push_back(unexplained(object, detected[std::size_t(view)], result, view));
   return result;
 }
 
 BeadCalibration calibrateFromSightings(const CalibrationObject& object, std::span<const Sighting> sightings,
-                                       const std::array<Eigen::Vector2i, 2>& image_sizes_px,
+                                       std::span<const Eigen::Vector2i> image_sizes_px,
                                        const CalibrationOptions& options, const Job& job) {
   std::vector<std::string> names;
   for (const auto& bead : object.beads) names.push_back(bead.name);
@@ -149,25 +183,18 @@ BeadCalibration calibrateFromSightings(const CalibrationObject& object, std::spa
     if (found == names.end())
       throw InputError{
           {kWhere, "sighting", "a bead of '" + object.name + "'", "'" + s.name + "'" + didYouMean(s.name, names)}};
+    if (s.view < 0 || s.view >= int(image_sizes_px.size()))
+      throw InputError{{kWhere, "sighting of " + s.name, "a view from 1 to " + std::to_string(image_sizes_px.size()),
+                        "view " + std::to_string(s.view + 1)}};
     observations.push_back({int(found - names.begin()), s.view, s.uv_px, s.sigma_px, -1});
   }
-  std::array<View, 2> start;
-  for (int view : {0, 1}) {
-    requireDetermined(object, observations, view);
-    std::vector<Eigen::Vector3d> places;
-    std::vector<Eigen::Vector2d> uv_px;
-    for (const auto& o : observations)
-      if (o.view == view) {
-        places.push_back(object.beads[std::size_t(o.bead)].p_WQ);
-        uv_px.push_back(o.uv_px);
-      }
-    const auto linear = viewFromDlt(places, uv_px);
-    if (!linear) throw InputError{{viewName(view), "beads", "sightings that determine a view", "a degenerate set"}};
-    View& first = start[std::size_t(view)] = *linear;
-    first.width_px = image_sizes_px[std::size_t(view)].x();
-    first.height_px = image_sizes_px[std::size_t(view)].y();
-    auto& c = std::get<ConeBeam>(first.projection);
-    if (std::abs(c.fy_px / c.fx_px - 1) < 0.02) c.fy_px = c.fx_px;  // square pixels, as detectors have
+  BiplanarRig start;
+  start.views.clear();
+  for (int view = 0; view < int(image_sizes_px.size()); ++view) {
+    RigView first{startFromSightings(object, observations, view, image_sizes_px[std::size_t(view)]), ViewRole::Other,
+                  view};
+    if (options.patient_aligned) first.role = roleOfBeam(first);
+    start.views.push_back(first);
   }
   return calibrate(object, observations, start, options, job);
 }

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,16 +41,16 @@ std::optional<BeadMatch> matchBeads(const CalibrationObject& object, const std::
 std::optional<View> viewFromDlt(const std::vector<Eigen::Vector3d>& points_W,
                                 const std::vector<Eigen::Vector2d>& uv_px);
 
-/// Both views refined together with the bead positions.
+/// All views refined together with the bead positions.
 struct RefinedViews {
   Outcome outcome = Outcome::NotRun;
-  std::array<View, 2> views;
+  std::vector<View> views;
   std::vector<Eigen::Vector2d> residual_px;  ///< of every observation, observed minus projected
   double rms_px = 0;
   double accuracy_mm = 0;
-  double focal_length_error = 0;  ///< largest relative standard error of the two focal lengths
+  double focal_length_error = 0;  ///< largest relative standard error of the focal lengths
 };
 RefinedViews refineViews(const CalibrationObject& object, const std::vector<BeadObservation>& observations,
-                         const std::array<View, 2>& start, const CalibrationOptions& options, const Job& job);
+                         const std::vector<View>& start, const CalibrationOptions& options, const Job& job);
 
 }  // namespace sinew

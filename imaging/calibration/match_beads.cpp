@@ -60,47 +60,40 @@ Pairs nearestPairs(const CalibrationObject& object, const std::vector<DetectedBe
 /// The view that explains the pairs, robustly against wrong ones.
 View refit(const CalibrationObject& object, const std::vector<DetectedBead>& detected, const Pairs& pairs,
            const View& start, double scale_px) {
-  const auto& c = std::get<ConeBeam>(start.projection);
-  Eigen::Vector4d intrinsics{c.fx_px, c.cx_px, c.cy_px, 0};
-  Eigen::Matrix<double, 6, 1> pose;
-  pose << Eigen::Vector3d::Zero(), start.p_CW;
-  const double aspect = c.fy_px / c.fx_px;
+  ViewUnknowns unknowns{start};
   ceres::Problem problem;
   std::vector<Eigen::Vector3d> places;
   places.reserve(pairs.size());
   for (const auto& [bead, seen] : pairs) {
     places.push_back(object.beads[std::size_t(bead)].p_WQ);
     problem.AddResidualBlock(
-        BeadProjectionResidual::create(detected[std::size_t(seen)].uv_px, scale_px, start.R_CW, aspect),
-        new ceres::CauchyLoss{1}, intrinsics.data(), pose.data(), places.back().data());
+        BeadProjectionResidual::create(detected[std::size_t(seen)].uv_px, scale_px, unknowns.R0, unknowns.aspect),
+        new ceres::CauchyLoss{1}, unknowns.intrinsics.data(), unknowns.pose.data(), places.back().data());
     problem.SetParameterBlockConstant(places.back().data());
   }
-  problem.SetManifold(intrinsics.data(), new ceres::SubsetManifold{4, {3}});
+  problem.SetManifold(
+      unknowns.intrinsics.data(),
+      new ceres::SubsetManifold{ViewUnknowns::kIntrinsics, {3, 4, 5, 6, 7}});  // distortion: as guessed
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 50;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable() || !(intrinsics[0] > 0)) return start;
-  View out = start;
-  out.projection = ConeBeam{intrinsics[0], aspect * intrinsics[0], intrinsics[1], intrinsics[2]};
-  out.R_CW = start.R_CW * rotationFromVector<double>(pose.head<3>());
-  out.p_CW = pose.tail<3>();
-  return out;
+  return summary.IsSolutionUsable() && unknowns.intrinsics[0] > 0 ? unknowns.view(start) : start;
 }
 
 /// Poses from which three beads are seen in three places (perspective three-point problem), near the guess.
 std::vector<View> posesOf(const std::array<Eigen::Vector3d, 3>& beads, const std::array<Eigen::Vector2d, 3>& uv_px,
                           const View& guess) {
-  const auto& c = std::get<ConeBeam>(guess.projection);
   // A mirrored view is solved in its mirror image.
   const double mirror = guess.R_CW.determinant() < 0 ? -1 : 1;
   std::vector<cv::Point3d> object;
   std::vector<cv::Point2d> image;
   for (std::size_t i = 0; i < 3; ++i) {
     object.emplace_back(beads[i].x(), beads[i].y(), beads[i].z());
-    image.emplace_back(mirror * (uv_px[i].x() - c.cx_px) / c.fx_px, (uv_px[i].y() - c.cy_px) / c.fy_px);
+    const Eigen::Vector2d xy = (guess.R_CW * backProject(guess, uv_px[i]).direction_W).hnormalized();
+    image.emplace_back(mirror * xy.x(), xy.y());
   }
   std::vector<cv::Mat> rotations, translations;
   cv::solveP3P(object, image, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotations, translations, cv::SOLVEPNP_AP3P);

@@ -14,31 +14,18 @@ namespace {
 constexpr double kMillimetre_m = 1e-3;
 constexpr double kOutlier_sigma = 3;  // beyond it the loss grows linearly (Huber)
 
-/// Unknowns of one view, as the residuals want them.
-struct ViewUnknowns {
-  Eigen::Vector4d intrinsics;
-  Eigen::Matrix<double, 6, 1> pose;
-  Eigen::Matrix3d R0;
-  double aspect;
-
-  explicit ViewUnknowns(const View& view) : R0{view.R_CW} {
-    const auto& c = std::get<ConeBeam>(view.projection);
-    intrinsics << c.fx_px, c.cx_px, c.cy_px, c.k1;
-    pose << Eigen::Vector3d::Zero(), view.p_CW;
-    aspect = c.fy_px / c.fx_px;
+/// How many entries of the intrinsics are unknown: the distortion's are last, k1 first of them.
+int freeIntrinsics(EstimatedDistortion distortion) {
+  switch (distortion) {
+    case EstimatedDistortion::None:
+      return ViewUnknowns::kFirstDistortion;
+    case EstimatedDistortion::FirstRadial:
+      return ViewUnknowns::kFirstDistortion + 1;
+    case EstimatedDistortion::Full:
+      return ViewUnknowns::kIntrinsics;
   }
-  View view(const View& start) const {
-    View out = start;
-    out.projection = ConeBeam{.fx_px = intrinsics[0],
-                              .fy_px = aspect * intrinsics[0],
-                              .cx_px = intrinsics[1],
-                              .cy_px = intrinsics[2],
-                              .k1 = intrinsics[3]};
-    out.R_CW = R0 * rotationFromVector<double>(pose.head<3>());
-    out.p_CW = pose.tail<3>();
-    return out;
-  }
-};
+  return ViewUnknowns::kIntrinsics;
+}
 
 Eigen::MatrixXd denseJacobian(ceres::Problem& problem, const std::vector<double*>& blocks) {
   ceres::Problem::EvaluateOptions options;
@@ -63,19 +50,20 @@ Eigen::MatrixXd inverseOfNormal(const Eigen::MatrixXd& jacobian) {
   return scale.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(n, n)) * scale.asDiagonal();
 }
 
-/// Squared error [m^2] to expect of a point at p_W that is seen in both views with `sigma_px`: its own noise and that
+/// Squared error [m^2] to expect of a point at p_W that is seen in all views with `sigma_px`: its own noise and that
 /// of the calibration, carried through the triangulation (first order).
-double expectedSquaredError(const std::array<ViewUnknowns, 2>& views, const Eigen::Vector3d& p_W,
+double expectedSquaredError(const std::vector<ViewUnknowns>& views, const Eigen::Vector3d& p_W,
                             const Eigen::MatrixXd& view_covariance, double sigma_px) {
-  const Eigen::Index per_view = view_covariance.cols() / 2, of_intrinsics = per_view - 6;
-  Eigen::Matrix<double, 4, 3> by_point;
-  Eigen::MatrixXd by_view = Eigen::MatrixXd::Zero(4, 2 * per_view);
-  for (Eigen::Index i = 0; i < 2; ++i) {
+  const Eigen::Index count = Eigen::Index(views.size()), per_view = view_covariance.cols() / count;
+  const Eigen::Index of_intrinsics = per_view - 6;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> by_point(2 * count, 3);
+  Eigen::MatrixXd by_view = Eigen::MatrixXd::Zero(2 * count, count * per_view);
+  for (Eigen::Index i = 0; i < count; ++i) {
     const ViewUnknowns& v = views[std::size_t(i)];
     const std::unique_ptr<ceres::CostFunction> cost{
         BeadProjectionResidual::create(Eigen::Vector2d::Zero(), 1, v.R0, v.aspect)};
     const double* parameters[] = {v.intrinsics.data(), v.pose.data(), p_W.data()};
-    Eigen::Matrix<double, 2, 4, Eigen::RowMajor> d_intrinsics;
+    Eigen::Matrix<double, 2, ViewUnknowns::kIntrinsics, Eigen::RowMajor> d_intrinsics;
     Eigen::Matrix<double, 2, 6, Eigen::RowMajor> d_pose;
     Eigen::Matrix<double, 2, 3, Eigen::RowMajor> d_point;
     double* jacobians[] = {d_intrinsics.data(), d_pose.data(), d_point.data()};
@@ -85,17 +73,34 @@ double expectedSquaredError(const std::array<ViewUnknowns, 2>& views, const Eige
     by_view.block(2 * i, i * per_view, 2, of_intrinsics) = d_intrinsics.leftCols(of_intrinsics);
     by_view.block(2 * i, i * per_view + of_intrinsics, 2, 6) = d_pose;
   }
-  const Eigen::Matrix<double, 3, 4> solve = (by_point.transpose() * by_point).inverse() * by_point.transpose();
-  const Eigen::Matrix4d noise =
-      sigma_px * sigma_px * Eigen::Matrix4d::Identity() + by_view * view_covariance * by_view.transpose();
+  const Eigen::Matrix3d normal = by_point.transpose() * by_point;
+  const Eigen::MatrixXd solve = normal.inverse() * by_point.transpose();
+  const Eigen::MatrixXd noise = sigma_px * sigma_px * Eigen::MatrixXd::Identity(2 * count, 2 * count) +
+                                by_view * view_covariance * by_view.transpose();
   return (solve * noise * solve.transpose()).trace();
 }
 
 }  // namespace
 
+ViewUnknowns::ViewUnknowns(const View& view) : R0{view.R_CW} {
+  const auto& c = std::get<ConeBeam>(view.projection);
+  intrinsics << c.fx_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3;
+  pose << Eigen::Vector3d::Zero(), view.p_CW;
+  aspect = c.fy_px / c.fx_px;
+}
+
+View ViewUnknowns::view(const View& start) const {
+  View out = start;
+  const auto c = pinhole(intrinsics.data(), aspect);
+  out.projection = ConeBeam{c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3};
+  out.R_CW = R0 * rotationFromVector<double>(pose.head<3>());
+  out.p_CW = pose.tail<3>();
+  return out;
+}
+
 RefinedViews refineViews(const CalibrationObject& object, const std::vector<BeadObservation>& observations,
-                         const std::array<View, 2>& start, const CalibrationOptions& options, const Job& job) {
-  std::array<ViewUnknowns, 2> views{ViewUnknowns{start[0]}, ViewUnknowns{start[1]}};
+                         const std::vector<View>& start, const CalibrationOptions& options, const Job& job) {
+  std::vector<ViewUnknowns> views(start.begin(), start.end());
   std::vector<Eigen::Vector3d> beads;
   for (const auto& bead : object.beads) beads.push_back(bead.p_WQ);
 
@@ -108,11 +113,15 @@ RefinedViews refineViews(const CalibrationObject& object, const std::vector<Bead
                              beads[std::size_t(o.bead)].data());
     seen[std::size_t(o.bead)] = true;
   }
+  const int free_intrinsics = freeIntrinsics(options.estimate_distortion);
+  std::vector<int> known;  // entries that stay as they started
+  for (int i = free_intrinsics; i < ViewUnknowns::kIntrinsics; ++i) known.push_back(i);
   std::vector<double*> blocks;
   for (auto& v : views) {
     blocks.push_back(v.intrinsics.data());
     blocks.push_back(v.pose.data());
-    if (!options.estimate_distortion) problem.SetManifold(v.intrinsics.data(), new ceres::SubsetManifold{4, {3}});
+    if (free_intrinsics < ViewUnknowns::kIntrinsics)
+      problem.SetManifold(v.intrinsics.data(), new ceres::SubsetManifold{ViewUnknowns::kIntrinsics, known});
   }
   for (std::size_t i = 0; i < beads.size(); ++i)
     if (seen[i]) {
@@ -132,7 +141,7 @@ RefinedViews refineViews(const CalibrationObject& object, const std::vector<Bead
   result.outcome = outcomeOf(summary);
   if (result.outcome != Outcome::Converged) return result;
 
-  for (std::size_t i = 0; i < 2; ++i) result.views[i] = views[i].view(start[i]);
+  for (std::size_t i = 0; i < views.size(); ++i) result.views.push_back(views[i].view(start[i]));
   double sum_px2 = 0, sum_sigma2 = 0, sigma_px2 = 0;
   for (const auto& o : observations) {
     // Against the beads' nominal places: what a user would see overlaid.
@@ -145,19 +154,20 @@ RefinedViews refineViews(const CalibrationObject& object, const std::vector<Bead
   result.rms_px = std::sqrt(sum_px2 / double(observations.size()));
 
   const Eigen::MatrixXd jacobian = denseJacobian(problem, blocks);
-  const Eigen::Index per_view = options.estimate_distortion ? 10 : 9;
+  const Eigen::Index count = Eigen::Index(views.size()), per_view = free_intrinsics + 6;
   double cost = 0;
   problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
   sum_sigma2 = 2 * cost;
   // Scatter beyond what the detections and the bead file promise widens everything.
   const double excess =
-      std::max(1.0, sum_sigma2 / std::max(2.0 * double(observations.size()) - 2.0 * double(per_view), 1.0));
-  const Eigen::MatrixXd covariance = excess * inverseOfNormal(jacobian).topLeftCorner(2 * per_view, 2 * per_view);
+      std::max(1.0, sum_sigma2 / std::max(2.0 * double(observations.size()) - double(count * per_view), 1.0));
+  const Eigen::MatrixXd covariance =
+      excess * inverseOfNormal(jacobian).topLeftCorner(count * per_view, count * per_view);
   double sum_m2 = 0;
   for (const auto& bead : object.beads)
     sum_m2 += expectedSquaredError(views, bead.p_WQ, covariance, std::sqrt(excess * sigma_px2));
   result.accuracy_mm = std::sqrt(sum_m2 / double(object.beads.size())) / kMillimetre_m;
-  for (Eigen::Index i = 0; i < 2; ++i) {
+  for (Eigen::Index i = 0; i < count; ++i) {
     const double error = std::sqrt(covariance(i * per_view, i * per_view)) / views[std::size_t(i)].intrinsics[0];
     if (!(error <= result.focal_length_error)) result.focal_length_error = error;
   }

@@ -1,9 +1,11 @@
 #include "imaging/rig/biplanar_rig_json.h"
 
+#include "imaging/radiograph/radiograph.h"
+#include "imaging/rig/rig_uncertainty.h"
+
 namespace sinew {
 namespace {
 
-constexpr int kMaxImageSize_px = 65536;
 constexpr double kRotationTolerance = 1e-6;  // text calibrations carry about ten digits
 
 void write(const ConeBeam& c, Json& json) {
@@ -29,22 +31,16 @@ void write(const Orthographic& o, Json& json) {
   json["v0_px"] = o.v0_px;
 }
 
-Json viewToJson(const View& view) {
-  Json json;
-  json["projection"] = projectionName(view);
-  json["width_px"] = view.width_px;
-  json["height_px"] = view.height_px;
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back({view.R_CW(i, 0), view.R_CW(i, 1), view.R_CW(i, 2)});
-  json["R_CW"] = rows;
-  json["p_CW_m"] = {view.p_CW.x(), view.p_CW.y(), view.p_CW.z()};
-  std::visit([&](const auto& projection) { write(projection, json); }, view.projection);
+Json viewToJson(const RigView& view) {
+  Json json = projectionToJson(view);
+  json["role"] = nameOf(view.role);
+  json["exposure"] = view.exposure;
   return json;
 }
 
 ConeBeam coneBeamFromJson(const JsonReader& json) {
-  json.allowOnly({"projection", "width_px", "height_px", "R_CW", "p_CW_m", "fx_px", "fy_px", "cx_px", "cy_px",
-                  "distortion_k1_k2_p1_p2_k3"});
+  json.allowOnly({"projection", "role", "exposure", "width_px", "height_px", "R_CW", "p_CW_m", "fx_px", "fy_px",
+                  "cx_px", "cy_px", "distortion_k1_k2_p1_p2_k3"});
   ConeBeam c{.fx_px = json["fx_px"].positive(),
              .fy_px = json["fy_px"].positive(),
              .cx_px = json["cx_px"].number(),
@@ -57,15 +53,15 @@ ConeBeam coneBeamFromJson(const JsonReader& json) {
 }
 
 SlotScan slotScanFromJson(const JsonReader& json) {
-  json.allowOnly({"projection", "width_px", "height_px", "R_CW", "p_CW_m", "source_to_isocenter_m",
-                  "column_spacing_m", "row_spacing_m", "u0_px", "v0_px"});
+  json.allowOnly({"projection", "role", "exposure", "width_px", "height_px", "R_CW", "p_CW_m",
+                  "source_to_isocenter_m", "column_spacing_m", "row_spacing_m", "u0_px", "v0_px"});
   return {json["source_to_isocenter_m"].positive(), json["column_spacing_m"].positive(),
           json["row_spacing_m"].positive(), json["u0_px"].number(), json["v0_px"].number()};
 }
 
 Orthographic orthographicFromJson(const JsonReader& json) {
-  json.allowOnly({"projection", "width_px", "height_px", "R_CW", "p_CW_m", "column_spacing_m", "row_spacing_m",
-                  "u0_px", "v0_px"});
+  json.allowOnly({"projection", "role", "exposure", "width_px", "height_px", "R_CW", "p_CW_m", "column_spacing_m",
+                  "row_spacing_m", "u0_px", "v0_px"});
   return {json["column_spacing_m"].positive(), json["row_spacing_m"].positive(), json["u0_px"].number(),
           json["v0_px"].number()};
 }
@@ -83,17 +79,28 @@ Eigen::Matrix3d rotationFromJson(const JsonReader& json) {
   return R;
 }
 
-View viewFromJson(const JsonReader& json) {
+View projectionFromJson(const JsonReader& json) {
   View view;
   const std::string projection = json["projection"].oneOf({"cone_beam", "slot_scan", "orthographic"});
   if (projection == "cone_beam") view.projection = coneBeamFromJson(json);
   if (projection == "slot_scan") view.projection = slotScanFromJson(json);
   if (projection == "orthographic") view.projection = orthographicFromJson(json);
-  view.width_px = json["width_px"].integer(1, kMaxImageSize_px);
-  view.height_px = json["height_px"].integer(1, kMaxImageSize_px);
+  view.width_px = json["width_px"].integer(1, kMaxImageSide_px);
+  view.height_px = json["height_px"].integer(1, kMaxImageSide_px);
   view.R_CW = rotationFromJson(json["R_CW"]);
   const auto p = json["p_CW_m"].numbers(3);
   view.p_CW << p[0], p[1], p[2];
+  return view;
+}
+
+RigView viewFromJson(const JsonReader& json, const BiplanarRig& rig, int index) {
+  RigView view{projectionFromJson(json), ViewRole::Other, isSimultaneous(rig.calibration) ? 0 : index};
+  if (const auto role = json.find("role"))
+    view.role =
+        roleFromName(role->oneOf({"frontal_ap", "frontal_pa", "lateral_left", "lateral_right", "oblique", "other"}));
+  else if (rig.patient_aligned)
+    view.role = roleOfBeam(view);
+  if (const auto exposure = json.find("exposure")) view.exposure = exposure->integer(0, kMaxViews);
   return view;
 }
 
@@ -105,6 +112,19 @@ CalibrationRecord calibrationFromJson(const JsonReader& json) {
 
 }  // namespace
 
+Json projectionToJson(const View& view) {
+  Json json;
+  json["projection"] = projectionName(view);
+  json["width_px"] = view.width_px;
+  json["height_px"] = view.height_px;
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({view.R_CW(i, 0), view.R_CW(i, 1), view.R_CW(i, 2)});
+  json["R_CW"] = rows;
+  json["p_CW_m"] = {view.p_CW.x(), view.p_CW.y(), view.p_CW.z()};
+  std::visit([&](const auto& projection) { write(projection, json); }, view.projection);
+  return json;
+}
+
 Json rigToJson(const BiplanarRig& rig) {
   Json json;
   json["format"] = "sinew.rig";
@@ -115,7 +135,8 @@ Json rigToJson(const BiplanarRig& rig) {
                          {"rms_px", numberOrNull(rig.calibration.rms_px)},
                          {"accuracy_mm", numberOrNull(rig.calibration.accuracy_mm)},
                          {"warnings", warningsToJson(rig.calibration.warnings)}};
-  json["views"] = {viewToJson(rig.views[0]), viewToJson(rig.views[1])};
+  json["views"] = Json::array();
+  for (const auto& view : rig.views) json["views"].push_back(viewToJson(view));
   return json;
 }
 
@@ -128,8 +149,11 @@ BiplanarRig rigFromJson(const JsonReader& json) {
     rig.calibration = calibrationFromJson(*calibration);
   else
     rig.calibration.method = "json";
-  const auto views = json["views"].items(2);
-  rig.views = {viewFromJson(views[0]), viewFromJson(views[1])};
+  const auto views = json["views"].items();
+  if (views.size() < 2 || views.size() > std::size_t(kMaxViews))
+    json["views"].fail("a list of 2 to " + std::to_string(kMaxViews) + " views");
+  rig.views.clear();
+  for (const auto& view : views) rig.views.push_back(viewFromJson(view, rig, int(rig.views.size())));
   return rig;
 }
 

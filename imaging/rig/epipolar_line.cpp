@@ -53,9 +53,11 @@ void simplify(const std::vector<Eigen::Vector2d>& line, std::size_t first, std::
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> epipolarLine(const BiplanarRig& rig, int view, const Eigen::Vector2d& uv_px) {
-  require(view == 0 || view == 1, "view is 0 or 1");
-  const View& other = rig.views[std::size_t(1 - view)];
+std::vector<Eigen::Vector2d> epipolarLine(const BiplanarRig& rig, int view, const Eigen::Vector2d& uv_px,
+                                          int other_view) {
+  const auto known = [&](int v) { return v >= 0 && v < int(rig.views.size()); };
+  require(known(view) && known(other_view) && view != other_view, "two different views of the rig");
+  const View& other = rig.views[std::size_t(other_view)];
   const Ray ray = backProject(rig.views[std::size_t(view)], uv_px);
   std::vector<Eigen::Vector2d> line;
   bool before_seen = false;

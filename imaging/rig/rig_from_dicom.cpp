@@ -1,7 +1,9 @@
 #include "imaging/rig/rig_from_dicom.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace sinew {
 namespace {
@@ -72,9 +74,9 @@ Eigen::Vector3d beamOfAngles(double primary_deg, double secondary_deg) {
   return std::cos(b) * (std::cos(a) * kAnterior - std::sin(a) * kRight) + std::sin(b) * kUp;
 }
 
-Eigen::Vector3d beamDirection(const RadiographTags& tags, bool both_have_angles, int view, Warnings& warnings) {
+Eigen::Vector3d beamDirection(const RadiographTags& tags, bool all_have_angles, int view, Warnings& warnings) {
   const Eigen::Vector3d named = beamOfViewPosition(tags, warnings);
-  if (both_have_angles) {
+  if (all_have_angles) {
     const Eigen::Vector3d turned =
         beamOfAngles(*tags.positioner_primary_angle_deg, tags.positioner_secondary_angle_deg.value_or(0));
     if (named.isZero() || named.dot(turned) > std::cos(30 * kDegree_rad)) return turned;
@@ -98,11 +100,12 @@ Eigen::Matrix3d viewAxes(const RadiographTags& tags, const Eigen::Vector3d& z, i
 
   Eigen::Vector3d stated = directionOf(rowWord(tags));
   if (stated.isZero()) {
-    stated = view == 0 ? Eigen::Vector3d{-kRight} : x;
+    const bool frontal = std::abs(z.dot(kAnterior)) > std::abs(z.dot(kRight));
+    stated = frontal ? Eigen::Vector3d{-kRight} : x;
     warnings.push_back(
         {"patient_orientation_assumed",
          "View " + std::to_string(view + 1) + " does not state Patient Orientation; taken as " +
-             (view == 0 ? "the patient's left on the right of the image." : "seen from the X-ray source.") +
+             (frontal ? "the patient's left on the right of the image." : "seen from the X-ray source.") +
              " Check the side marker."});
   }
   if (std::abs(stated.dot(x)) < 0.3)
@@ -145,14 +148,25 @@ SlotScan slotScan(const Radiograph& image, int view, Warnings& warnings) {
   return s;
 }
 
-void requireSameRows(const Radiograph& a, const Radiograph& b, const SlotScan& sa, const SlotScan& sb) {
-  if (a.height_px != b.height_px)
-    throw InputError{{kWhere, "Rows", "the same in both images of a slot scan",
-                      std::to_string(a.height_px) + " and " + std::to_string(b.height_px)}};
-  if (std::abs(sa.row_spacing_m - sb.row_spacing_m) > 1e-4 * sa.row_spacing_m)
-    throw InputError{{kWhere, "row spacing", "the same in both images of a slot scan",
-                      std::to_string(sa.row_spacing_m / kMillimetre_m) + " and " +
-                          std::to_string(sb.row_spacing_m / kMillimetre_m) + " mm"}};
+void requireSameRows(std::span<const Radiograph> images, std::span<const RigView> views, Warnings& warnings) {
+  const Radiograph& a = images[0];
+  const double spacing_m = std::get<SlotScan>(views[0].projection).row_spacing_m;
+  bool one_frame = true;
+  for (std::size_t i = 1; i < images.size(); ++i) {
+    const Radiograph& b = images[i];
+    if (a.height_px != b.height_px)
+      throw InputError{{kWhere, "Rows", "the same in all images of a slot scan",
+                        std::to_string(a.height_px) + " and " + std::to_string(b.height_px)}};
+    const double other_m = std::get<SlotScan>(views[i].projection).row_spacing_m;
+    if (std::abs(spacing_m - other_m) > 1e-4 * spacing_m)
+      throw InputError{
+          {kWhere, "row spacing", "the same in all images of a slot scan",
+           std::to_string(spacing_m / kMillimetre_m) + " and " + std::to_string(other_m / kMillimetre_m) + " mm"}};
+    one_frame &= a.tags.frame_of_reference_uid == b.tags.frame_of_reference_uid;
+  }
+  if (!one_frame)
+    warnings.push_back({"different_frame_of_reference",
+                        "The images do not share a frame of reference: were they scanned together?"});
 }
 
 /// Distance source - isocentre [m] and the pinhole of a flat detector placed as the tags say.
@@ -179,55 +193,85 @@ std::pair<double, ConeBeam> nominalConeBeam(const Radiograph& image, int view) {
   return {source_mm * kMillimetre_m, c};
 }
 
-void requireOnePatient(const RadiographTags& a, const RadiographTags& b, Warnings& warnings) {
-  const auto differ = [](const std::string& x, const std::string& y) { return !x.empty() && !y.empty() && x != y; };
-  if (differ(a.patient_id, b.patient_id) || differ(a.patient_birth_date, b.patient_birth_date))
-    throw InputError{{kWhere, "patient", "the same in both images", "two different ones"}};
-  if (differ(a.study_instance_uid, b.study_instance_uid))
-    warnings.push_back({"different_study", "The two images are of different studies: was the posture the same?"});
+void requireOnePatient(std::span<const Radiograph> images, Warnings& warnings) {
+  const auto differ = [&](std::string RadiographTags::*field) {
+    const std::string* first = nullptr;
+    for (const auto& image : images) {
+      const std::string& value = image.tags.*field;
+      if (value.empty()) continue;
+      if (first && value != *first) return true;
+      first = &value;
+    }
+    return false;
+  };
+  if (differ(&RadiographTags::patient_id) || differ(&RadiographTags::patient_birth_date))
+    throw InputError{{kWhere, "patient", "the same in all images", "different ones"}};
+  if (differ(&RadiographTags::study_instance_uid))
+    warnings.push_back({"different_study", "The images are of different studies: was the posture the same?"});
+}
+
+/// Projection and pose of one image.
+View viewOf(const Radiograph& image, bool angles, bool scan, int index, Warnings& warnings) {
+  const Eigen::Vector3d beam = beamDirection(image.tags, angles, index, warnings);
+  View view;
+  view.R_CW = viewAxes(image.tags, beam, index, warnings);
+  view.width_px = image.width_px;
+  view.height_px = image.height_px;
+  if (scan) {
+    view.projection = slotScan(image, index, warnings);
+  } else {
+    const auto [source_m, pinhole] = nominalConeBeam(image, index);
+    view.projection = pinhole;
+    view.p_CW = {0, 0, source_m};
+  }
+  return view;
+}
+
+/// A frontal view first (view 1 of every table), and a lateral one among the others: of two, the second.
+void requireUsefulRoles(std::span<const RigView> views) {
+  const auto looksFrontal = [](const RigView& v) { return std::abs(v.R_CW(2, 0)) > std::abs(v.R_CW(2, 2)); };
+  if (!looksFrontal(views[0])) refuse(0, "view", "a frontal one (AP or PA) first", "a lateral one");
+  if (std::ranges::none_of(views, std::not_fn(looksFrontal)))
+    refuse(1, "view", views.size() == 2 ? "a lateral one (LL or RL) second" : "a lateral one (LL or RL) among them",
+           "a frontal one");
+}
+
+void requireDifferentBeams(std::span<const RigView> views) {
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (views[i].R_CW.row(2).dot(views[k].R_CW.row(2)) > std::cos(5 * kDegree_rad))
+        refuse(int(i), "view",
+               "another direction than image " + std::to_string(k + 1) +
+                   " (how two views of one direction stand to each other is in no attribute: calibrate "
+                   "them, or import a rig)",
+               "the same");
 }
 
 }  // namespace
 
-BiplanarRig rigFromDicom(const Radiograph& frontal, const Radiograph& lateral) {
-  const std::array<const Radiograph*, 2> images{&frontal, &lateral};
+BiplanarRig rigFromDicom(std::span<const Radiograph> images) {
+  if (images.size() < 2) throw InputError{{kWhere, "images", "two or more", std::to_string(images.size())}};
+  const auto everyImage = [&](auto has) { return std::ranges::all_of(images, [&](auto& i) { return has(i.tags); }); };
+  const bool angles = everyImage([](auto& t) { return t.positioner_primary_angle_deg.has_value(); });
+  const bool scan = everyImage([](auto& t) { return t.distance_source_to_isocenter_mm.has_value(); });
   BiplanarRig rig;
+  rig.views.clear();
   Warnings& warnings = rig.calibration.warnings;
-  requireOnePatient(frontal.tags, lateral.tags, warnings);
-  const bool angles =
-      frontal.tags.positioner_primary_angle_deg.has_value() && lateral.tags.positioner_primary_angle_deg.has_value();
-  const bool scan = frontal.tags.distance_source_to_isocenter_mm && lateral.tags.distance_source_to_isocenter_mm;
-
-  for (int i = 0; i < 2; ++i) {
-    const Radiograph& image = *images[std::size_t(i)];
-    View& view = rig.views[std::size_t(i)];
-    const Eigen::Vector3d beam = beamDirection(image.tags, angles, i, warnings);
-    const bool looks_frontal = std::abs(beam.dot(kAnterior)) > std::abs(beam.dot(kRight));
-    if (looks_frontal != (i == 0))
-      refuse(i, "view", i == 0 ? "a frontal one (AP or PA) first" : "a lateral one (LL or RL) second",
-             looks_frontal ? "a frontal one" : "a lateral one");
-    view.R_CW = viewAxes(image.tags, beam, i, warnings);
-    view.width_px = image.width_px;
-    view.height_px = image.height_px;
-    if (scan) {
-      view.projection = slotScan(image, i, warnings);
-    } else {
-      const auto [source_m, pinhole] = nominalConeBeam(image, i);
-      view.projection = pinhole;
-      view.p_CW = {0, 0, source_m};
-    }
+  requireOnePatient(images, warnings);
+  for (int i = 0; i < int(images.size()); ++i) {
+    RigView view{viewOf(images[std::size_t(i)], angles, scan, i, warnings), ViewRole::Other, scan ? 0 : i};
+    view.role = roleOfBeam(view);
+    rig.views.push_back(view);
   }
+  requireUsefulRoles(rig.views);
   if (scan) {
-    const auto& a = std::get<SlotScan>(rig.views[0].projection);
-    requireSameRows(frontal, lateral, a, std::get<SlotScan>(rig.views[1].projection));
-    if (frontal.tags.frame_of_reference_uid != lateral.tags.frame_of_reference_uid)
-      warnings.push_back({"different_frame_of_reference",
-                          "The two images do not share a frame of reference: were they scanned together?"});
+    requireSameRows(images, rig.views, warnings);
   } else {
+    requireDifferentBeams(rig.views);
     warnings.push_back(
         {"uncalibrated", "The geometry comes from nominal distances and angles alone: lengths are good to 3-5 %."});
   }
-  if (std::abs(rig.views[0].R_CW.row(2).dot(rig.views[1].R_CW.row(2))) > std::cos(60 * kDegree_rad))
+  if (std::sin(angleBetweenViews_rad(rig)) < std::sin(60 * kDegree_rad))
     warnings.push_back({"views_not_orthogonal", "The two beams are less than 60 deg apart: depth is less certain."});
   rig.patient_aligned = true;
   rig.calibration.method = scan ? "dicom_slot_scan" : "dicom_nominal";

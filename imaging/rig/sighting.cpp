@@ -1,13 +1,27 @@
 #include "imaging/rig/sighting.h"
 
+#include <charconv>
 #include <cstdio>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
+namespace {
+
+/// 1, 2, 3, ...: which rig it belongs to, and how many views that has, is not known here.
+int viewNumber(const std::string& cell, const std::string& where) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc{} || end != cell.data() + cell.size() || number < 1 || number > kMaxViews)
+    throw InputError{{where, "view", "1, 2, ...", "'" + cell + "'"}};
+  return number;
+}
+
+}  // namespace
 
 std::vector<Sighting> loadSightings(const std::filesystem::path& file) {
   std::istringstream in{readFile(file, std::uintmax_t{64} << 20)};
@@ -28,9 +42,8 @@ std::vector<Sighting> loadSightings(const std::filesystem::path& file) {
     if (cells.size() < 4 || cells.size() > 5)
       throw InputError{{where, "columns", "4 or 5", std::to_string(cells.size())}};
     if (cells[0].empty()) throw InputError{{where, "name", "a landmark name", "nothing"}};
-    if (cells[1] != "1" && cells[1] != "2") throw InputError{{where, "view", "1 or 2", "'" + cells[1] + "'"}};
     Sighting s{cells[0],
-               cells[1] == "1" ? 0 : 1,
+               viewNumber(cells[1], where) - 1,
                {parseNumber(cells[2], where, "u_px"), parseNumber(cells[3], where, "v_px")},
                1.0};
     if (cells.size() == 5 && !cells[4].empty()) s.sigma_px = parseNumber(cells[4], where, "sigma_px");

@@ -9,7 +9,7 @@ namespace sinew {
 /// One landmark seen in one radiograph.
 struct Sighting {
   std::string name;       ///< landmark
-  int view = 0;           ///< 0 = frontal, 1 = lateral (files say 1 and 2)
+  int view = 0;           ///< of the rig, from 0 (files count from 1)
   Eigen::Vector2d uv_px;  ///< image frame I: origin at the centre of the top-left pixel, u right, v down
   double sigma_px = 1.0;  ///< reader's placement error, one standard deviation
   friend bool operator==(const Sighting&, const Sighting&) = default;

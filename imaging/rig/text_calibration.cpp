@@ -101,10 +101,11 @@ View readView(const std::filesystem::path& path) {
 }  // namespace
 
 BiplanarRig importTextCalibration(std::span<const std::filesystem::path> files, const std::string& method) {
-  if (files.size() != 2)
-    throw InputError{{method + " calibration", "files", "2, one a view", std::to_string(files.size())}};
+  if (files.size() < 2)
+    throw InputError{{method + " calibration", "files", "2 or more, one a view", std::to_string(files.size())}};
   BiplanarRig rig;
-  for (std::size_t i = 0; i < 2; ++i) rig.views[i] = readView(files[i]);
+  rig.views.clear();
+  for (const auto& file : files) rig.views.push_back({readView(file), ViewRole::Other, 0});
   rig.patient_aligned = false;  // the laboratory's frame, whichever that is
   rig.calibration.method = method;
   rig.calibration.id = geometryId(rig.views);

@@ -6,30 +6,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imaging/rig/sighting_groups_internal.h"
+
 namespace sinew {
 namespace {
 
 constexpr double kMinRayAngle_rad = 0.08726646259971647;  // 5 deg
-constexpr double kGrossMismatch_sigma = 5;
 
-/// Weighted residuals (observed minus projected, over sigma) of both sightings and their derivative by the point.
+/// Weighted residuals (observed minus projected, over sigma) of all sightings and their derivative by the point.
 struct Linearised {
-  Eigen::Vector4d residual;
-  Eigen::Matrix<double, 4, 3> jacobian;
+  Eigen::VectorXd residual;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> jacobian;
 };
 
-std::optional<Linearised> linearise(const BiplanarRig& rig, std::span<const Sighting> pair,
+std::optional<Linearised> linearise(const BiplanarRig& rig, std::span<const Sighting> sightings,
                                     const Eigen::Vector3d& p_W) {
   using Jet = ceres::Jet<double, 3>;
   const Vector3<Jet> p{Jet{p_W.x(), 0}, Jet{p_W.y(), 1}, Jet{p_W.z(), 2}};
-  Linearised out;
-  for (int i = 0; i < 2; ++i) {
-    const Sighting& s = pair[std::size_t(i)];
+  const Eigen::Index rows = 2 * Eigen::Index(sightings.size());
+  Linearised out{Eigen::VectorXd(rows), Eigen::Matrix<double, Eigen::Dynamic, 3>(rows, 3)};
+  Eigen::Index row = 0;
+  for (const Sighting& s : sightings) {
     Eigen::Matrix<Jet, 2, 1> uv;
     if (!project<Jet>(rig.views[std::size_t(s.view)], p, uv)) return std::nullopt;
-    for (int k = 0; k < 2; ++k) {
-      out.residual[2 * i + k] = (s.uv_px[k] - uv[k].a) / s.sigma_px;
-      out.jacobian.row(2 * i + k) = -uv[k].v.transpose() / s.sigma_px;
+    for (int k = 0; k < 2; ++k, ++row) {
+      out.residual[row] = (s.uv_px[k] - uv[k].a) / s.sigma_px;
+      out.jacobian.row(row) = -uv[k].v.transpose() / s.sigma_px;
     }
   }
   return out;
@@ -44,75 +46,32 @@ Eigen::Vector3d midpoint(const Ray& a, const Ray& b) {
   return 0.5 * (a.origin_W + along_a * a.direction_W + b.origin_W + along_b * b.direction_W);
 }
 
-struct NamedPair {
-  std::string name;
-  std::vector<Sighting> pair;
-};
+/// Where the two rays nearest to a right angle pass each other; nullopt if all are nearly parallel.
+std::optional<Eigen::Vector3d> startOf(const BiplanarRig& rig, std::span<const Sighting> sightings) {
+  std::vector<Ray> rays;
+  for (const Sighting& s : sightings) rays.push_back(backProject(rig.views[std::size_t(s.view)], s.uv_px));
+  double widest = std::sin(kMinRayAngle_rad);
+  std::optional<Eigen::Vector3d> start;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    for (std::size_t k = i + 1; k < rays.size(); ++k) {
+      const double sine = rays[i].direction_W.cross(rays[k].direction_W).norm();
+      if (sine < widest) continue;
+      widest = sine;
+      start = midpoint(rays[i], rays[k]);
+    }
+  return start;
+}
 
-std::vector<NamedPair> groupByName(std::span<const Sighting> sightings) {
-  std::vector<NamedPair> groups;
-  for (const auto& s : sightings) {
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const NamedPair& g) { return g.name == s.name; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {s.name, {}});
-    group->pair.push_back(s);
+void requireUsable(const BiplanarRig& rig, std::span<const Sighting> sightings) {
+  const std::string name = sightings.empty() ? std::string{} : sightings[0].name;
+  for (const Sighting& s : sightings) {
+    requireKnownView(rig, s);
+    if (!(s.sigma_px > 0) || !s.uv_px.allFinite())
+      throw InputError{{"triangulate", s.name, "finite u_px, v_px and sigma_px > 0", "other numbers"}};
   }
-  return groups;
-}
-
-/// Residual length in units of the picking error, the mismatch of two rays.
-double mismatch_sigma(const TriangulatedLandmark& point, std::span<const Sighting> pair) {
-  double sum = 0;
-  for (const auto& s : pair) sum += (point.residual_px[std::size_t(s.view)] / s.sigma_px).squaredNorm();
-  return std::sqrt(sum);
-}
-
-/// Median mismatch if the images of the chosen views had been counted from the bottom.
-double medianMismatch_sigma(const BiplanarRig& rig, std::vector<NamedPair> pairs, bool flip_first, bool flip_second) {
-  std::vector<double> values;
-  for (auto& group : pairs) {
-    for (auto& s : group.pair)
-      if (s.view == 0 ? flip_first : flip_second)
-        s.uv_px.y() = rig.views[std::size_t(s.view)].height_px - 1 - s.uv_px.y();
-    const auto point = triangulate(rig, group.pair);
-    values.push_back(point ? mismatch_sigma(*point, group.pair) : std::numeric_limits<double>::infinity());
-  }
-  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
-/// A sighting that was counted from the bottom row misses its partner by hundreds of pixels; when all of them agree
-/// again after flipping, the convention is wrong and not the picks.
-void warnOfFlippedRows(const BiplanarRig& rig, const std::vector<NamedPair>& pairs, Warnings& warnings) {
-  if (pairs.size() < 3) return;  // fewer agree by chance
-  const double as_given = medianMismatch_sigma(rig, pairs, false, false);
-  if (as_given <= kGrossMismatch_sigma) return;
-  struct Case {
-    bool first, second;
-    const char* views;
-  };
-  constexpr Case kCases[] = {{true, true, "both views"}, {true, false, "view 1"}, {false, true, "view 2"}};
-  const char* best_views = nullptr;
-  double best = as_given / 5;
-  for (const auto& c : kCases) {
-    const double flipped = medianMismatch_sigma(rig, pairs, c.first, c.second);
-    if (flipped < best) best = flipped, best_views = c.views;
-  }
-  if (best_views)
-    warnings.push_back({"flipped_y", std::string{"The sightings of "} + best_views +
-                                         " fit only if v is counted upwards from the bottom row: another y "
-                                         "convention; expected v downwards from the top row."});
-}
-
-/// Picks that meet only after trading places belong to the other view.
-void warnOfSwappedViews(const BiplanarRig& rig, const std::vector<NamedPair>& pairs, Warnings& warnings) {
-  if (pairs.size() < 3) return;
-  const double as_given = medianMismatch_sigma(rig, pairs, false, false);
-  if (as_given <= kGrossMismatch_sigma) return;
-  auto swapped = pairs;
-  for (auto& group : swapped)
-    for (auto& s : group.pair) s.view = 1 - s.view;
-  if (medianMismatch_sigma(rig, swapped, false, false) < as_given / 5)
-    warnings.push_back({"swapped_views", "The sightings fit only if view 1 and view 2 are exchanged."});
+  if (sightings.size() < 2 || !inDifferentViews(sightings))
+    throw InputError{{"triangulate", name, "one sighting in each of two or more views",
+                      std::to_string(sightings.size()) + " sightings"}};
 }
 
 std::string shortNumber(double value) {
@@ -121,72 +80,99 @@ std::string shortNumber(double value) {
   return text;
 }
 
+/// Of three and more sightings, the one without which the others agree; -1 if there is none.
+int viewThatDisagrees(const BiplanarRig& rig, const SightingGroup& group) {
+  if (group.sightings.size() < 3) return -1;
+  for (std::size_t i = 0; i < group.sightings.size(); ++i) {
+    auto others = group.sightings;
+    others.erase(others.begin() + long(i));
+    const auto point = triangulate(rig, others);
+    if (point && mismatch_sigma(*point, others) <= grossMismatch_sigma(others.size())) return group.sightings[i].view;
+  }
+  return -1;
+}
+
+void warnOfMismatch(const BiplanarRig& rig, const SightingGroup& group, const TriangulatedLandmark& point,
+                    Warnings& warnings) {
+  const double mismatch = mismatch_sigma(point, group.sightings);
+  if (mismatch <= grossMismatch_sigma(group.sightings.size())) return;
+  const int view = viewThatDisagrees(rig, group);
+  const std::string who = group.sightings.size() == 2 ? "the two sightings miss each other by "
+                          : view < 0                  ? "the sightings miss each other by "
+                                     : "the sighting in view " + std::to_string(view + 1) + " misses the others by ";
+  warnings.push_back({"gross_mismatch", "'" + group.name + "': " + who + shortNumber(point.reprojection_rms_px) +
+                                            " px (" + shortNumber(mismatch) +
+                                            " times the picking error): not the same point?"});
+}
+
+/// Names that have a place in space; warns of the others.
+std::vector<SightingGroup> seenInSpace(const BiplanarRig& rig, std::span<const Sighting> sightings,
+                                       Warnings& warnings) {
+  std::vector<SightingGroup> groups;
+  for (auto& group : groupByName(sightings)) {
+    for (const auto& s : group.sightings) requireKnownView(rig, s);
+    if (group.sightings.size() == 1)
+      warnings.push_back({"seen_once", "'" + group.name + "' is seen in one view only: no position in space."});
+    else if (!inDifferentViews(group.sightings))
+      warnings.push_back({"seen_twice", "'" + group.name + "' is picked twice in one view: no position in space."});
+    else
+      groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
 }  // namespace
 
-std::optional<TriangulatedLandmark> triangulate(const BiplanarRig& rig, std::span<const Sighting> pair) {
-  if (pair.size() != 2 || pair[0].view + pair[1].view != 1 || pair[0].view * pair[1].view != 0)
-    throw InputError{{"triangulate", pair.empty() ? "" : pair[0].name, "one sighting in each of the two views",
-                      std::to_string(pair.size()) + " sightings"}};
-  std::array<Ray, 2> rays;
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!(pair[i].sigma_px > 0) || !pair[i].uv_px.allFinite())
-      throw InputError{{"triangulate", pair[i].name, "finite u_px, v_px and sigma_px > 0", "other numbers"}};
-    rays[i] = backProject(rig.views[std::size_t(pair[i].view)], pair[i].uv_px);
-  }
-  if (rays[0].direction_W.cross(rays[1].direction_W).norm() < std::sin(kMinRayAngle_rad)) return std::nullopt;
+const Eigen::Vector2d* TriangulatedLandmark::residualIn(int view) const {
+  const auto found = std::ranges::find(residuals, view, &ViewResidual::view);
+  return found == residuals.end() ? nullptr : &found->residual_px;
+}
 
-  Eigen::Vector3d p_W = midpoint(rays[0], rays[1]);
-  std::optional<Linearised> at = linearise(rig, pair, p_W);
+std::optional<TriangulatedLandmark> triangulate(const BiplanarRig& rig, std::span<const Sighting> sightings) {
+  requireUsable(rig, sightings);
+  const auto start = startOf(rig, sightings);
+  if (!start) return std::nullopt;
+  Eigen::Vector3d p_W = *start;
+  std::optional<Linearised> at = linearise(rig, sightings, p_W);
   for (int iteration = 0; at && iteration < 50; ++iteration) {
     const Eigen::Vector3d step = -at->jacobian.colPivHouseholderQr().solve(at->residual);
     p_W += step;
-    at = linearise(rig, pair, p_W);
+    at = linearise(rig, sightings, p_W);
     if (step.norm() < 1e-13 * (1 + p_W.norm())) break;
   }
   if (!at) return std::nullopt;  // the rays meet behind a source: no such point exists
 
-  TriangulatedLandmark point{pair[0].name, p_W, (at->jacobian.transpose() * at->jacobian).inverse(), 0, {}};
+  const Eigen::Matrix3d normal = at->jacobian.transpose() * at->jacobian;
+  TriangulatedLandmark point{sightings[0].name, p_W, normal.inverse(), 0, {}};
   double sum_px2 = 0;
-  for (int i = 0; i < 2; ++i) {
-    const Sighting& s = pair[std::size_t(i)];
-    point.residual_px[std::size_t(s.view)] = at->residual.segment<2>(2 * i) * s.sigma_px;
-    sum_px2 += point.residual_px[std::size_t(s.view)].squaredNorm();
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const Sighting& s = sightings[i];
+    point.residuals.push_back({s.view, at->residual.segment<2>(2 * Eigen::Index(i)) * s.sigma_px});
+    sum_px2 += point.residuals.back().residual_px.squaredNorm();
   }
-  point.reprojection_rms_px = std::sqrt(sum_px2 / 2);
+  point.reprojection_rms_px = std::sqrt(sum_px2 / double(sightings.size()));
   return point;
 }
 
 Triangulation triangulateAll(const BiplanarRig& rig, std::span<const Sighting> sightings) {
   Triangulation result;
-  std::vector<NamedPair> pairs;
-  for (auto& group : groupByName(sightings)) {
-    if (group.pair.size() == 2 && group.pair[0].view != group.pair[1].view)
-      pairs.push_back(group);
-    else
-      result.warnings.push_back(
-          {"seen_once", "'" + group.name + "' is seen in one view only: no position in space."});
-  }
+  const auto groups = seenInSpace(rig, sightings, result.warnings);
   double sum_px2 = 0;
-  for (const auto& group : pairs) {
-    const auto point = triangulate(rig, group.pair);
+  for (const auto& group : groups) {
+    const auto point = triangulate(rig, group.sightings);
     if (!point) {
       result.warnings.push_back({"rays_nearly_parallel", "'" + group.name +
-                                                             "': the two rays are nearly parallel or meet behind a "
+                                                             "': its rays are nearly parallel or meet behind a "
                                                              "source; its depth is not determined."});
       continue;
     }
-    const double mismatch = mismatch_sigma(*point, group.pair);
-    if (mismatch > kGrossMismatch_sigma)
-      result.warnings.push_back({"gross_mismatch", "'" + group.name + "': the two sightings miss each other by " +
-                                                       shortNumber(point->reprojection_rms_px) + " px (" +
-                                                       shortNumber(mismatch) +
-                                                       " times the picking error): not the same point?"});
+    warnOfMismatch(rig, group, *point, result.warnings);
     sum_px2 += point->reprojection_rms_px * point->reprojection_rms_px;
     result.points.push_back(*point);
   }
   if (!result.points.empty()) result.rms_px = std::sqrt(sum_px2 / double(result.points.size()));
-  warnOfFlippedRows(rig, pairs, result.warnings);
-  warnOfSwappedViews(rig, pairs, result.warnings);
+  warnOfFlippedRows(rig, groups, result.warnings);
+  warnOfSwappedViews(rig, groups, result.warnings);
   return result;
 }
 

@@ -33,7 +33,10 @@ FileReference RandomCase::file(const std::string& path) {
 
 BiplanarRig RandomCase::rig() {
   BiplanarRig rig;
+  rig.views.resize(static_cast<std::size_t>(2 + below(3)));
   for (auto& view : rig.views) {
+    view.role = static_cast<ViewRole>(below(6));
+    view.exposure = below(3);
     if (coin())
       view.projection = ConeBeam{number(1, 9e3), number(1, 9e3), number(), number(), number(), number(), number()};
     else
@@ -69,14 +72,17 @@ std::map<std::string, double> RandomCase::factors() {
 std::vector<BoneFigure> RandomCase::figures() {
   std::vector<BoneFigure> list;
   for (int i = below(4); i > 0; --i)
-    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin()});
+    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin(),
+                    coin(), numberOrNaN(), numberOrNaN(), numberOrNaN()});
   return list;
 }
 
 Triangulation RandomCase::triangulation() {
   Triangulation t;
   for (int i = below(4); i > 0; --i) {
-    TriangulatedLandmark point{"point_" + std::to_string(i), vector3(), {}, numberOrNaN(), {vector2(), vector2()}};
+    TriangulatedLandmark point{"point_" + std::to_string(i), vector3(), {}, numberOrNaN(), {}};
+    for (int view = 0; view < 3; ++view)
+      if (coin()) point.residuals.push_back({view, vector2()});
     point.cov_W << vector3(), vector3(), vector3();
     t.points.push_back(point);
   }
@@ -96,6 +102,9 @@ SkeletonFit RandomCase::skeletonFit() {
   fit.rms_px = numberOrNaN();
   fit.figures = figures();
   if (coin()) fit.undetermined = {"pelvis.depth", text()};
+  if (coin())
+    fit.outside = {{"femur_r", number(1, 9), text(), number(0, 30)}, {"pelvis", number(1, 2), "asis_l", 3.5}};
+  if (coin()) fit.advice = {{"pelvic_tilt", "", {"sacral_endplate_center", text()}, coin()}, {"hka", "l", {}, false}};
   fit.warnings = warnings();
   return fit;
 }
@@ -137,9 +146,10 @@ Case RandomCase::make() {
   if (!c.images.empty() && coin()) c.images[0].declared_spacing_mm = number(0.01, 1);
   if (coin())
     c.phantom = {{file("calibration/view1.dcm"), file("calibration/view2.dcm")}, file("calibration/beads.csv")};
+  if (c.phantom && coin()) c.phantom->images.push_back(file("calibration/view3.dcm"));
   if (coin()) c.imported_rig = rig();
   for (int i = below(6); i > 0; --i)
-    c.sightings.push_back({"landmark_" + std::to_string(i), below(2), vector2(), number(0.1, 3)});
+    c.sightings.push_back({"landmark_" + std::to_string(i), below(3), vector2(), number(0.1, 3)});
   c.exam = exam();
   if (coin()) c.truth = {figures(), factors(), static_cast<unsigned>(below(1 << 30))};
   if (coin()) c.rig = rig();

@@ -20,8 +20,12 @@ inline BiplanarRig coneBeamRig() {
   const auto R = frontalAndLateral();
   BiplanarRig rig;
   for (std::size_t i = 0; i < 2; ++i)
-    rig.views[i] = {
-        ConeBeam{6000, 6000, 1000 + 13.0 * double(i), 2200 - 21.0 * double(i)}, R[i], {0.01, -0.02, 1.4}, 2000, 4400};
+    rig.views[i] = {View{ConeBeam{6000, 6000, 1000 + 13.0 * double(i), 2200 - 21.0 * double(i)},
+                         R[i],
+                         {0.01, -0.02, 1.4},
+                         2000,
+                         4400},
+                    i == 0 ? ViewRole::FrontalAP : ViewRole::LateralLeft, int(i)};
   rig.calibration = {"json", geometryId(rig.views), 0.1, 0.2, {}};
   return rig;
 }
@@ -31,8 +35,22 @@ inline BiplanarRig slotScanRig() {
   BiplanarRig rig;
   const double source_m[] = {0.987, 0.918};
   for (std::size_t i = 0; i < 2; ++i)
-    rig.views[i] = {SlotScan{source_m[i], 0.000185, 0.000179, 900, 4000}, R[i], Eigen::Vector3d::Zero(), 1800, 8000};
+    rig.views[i] = {
+        View{SlotScan{source_m[i], 0.000185, 0.000179, 900, 4000}, R[i], Eigen::Vector3d::Zero(), 1800, 8000},
+        i == 0 ? ViewRole::FrontalAP : ViewRole::LateralLeft, 0};
   rig.calibration.method = "dicom_slot_scan";
+  rig.calibration.id = geometryId(rig.views);
+  return rig;
+}
+
+/// The cone-beam rig with a third view, turned by `turn_deg` about the vertical from the frontal one.
+inline BiplanarRig threeViews(double turn_deg) {
+  BiplanarRig rig = coneBeamRig();
+  RigView third = rig.views[0];
+  third.R_CW = third.R_CW * Eigen::AngleAxisd{turn_deg * M_PI / 180, Eigen::Vector3d::UnitY()}.toRotationMatrix();
+  third.role = ViewRole::Oblique;
+  third.exposure = 2;
+  rig.views.push_back(third);
   rig.calibration.id = geometryId(rig.views);
   return rig;
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "clinical/case/case_io.h"
+#include "clinical/pipeline/patient_fit.h"
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/synthetic/synthetic_patient.h"
 #include "clinical/synthetic/synthetic_rig.h"
@@ -34,12 +35,6 @@ CaseImage plainImage(const View& view, const std::filesystem::path& folder, cons
   const auto path = folder / "images" / (name + ".dcm");
   writeDicom(film, path);
   return {{"images/" + name + ".dcm", sha256OfFile(path)}, {}};
-}
-
-std::vector<LandmarkObservation> observations(const std::vector<Sighting>& sightings) {
-  std::vector<LandmarkObservation> list;
-  for (const auto& s : sightings) list.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-  return list;
 }
 
 /// The tests on a body whose right hamstrings are short; the left popliteal angle was not possible.
@@ -94,7 +89,7 @@ Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
 
   c.rig = rig;
   c.landmarks = triangulateAll(rig, c.sightings);
-  c.skeleton = fitSkeleton(reference.skeleton, rig.views, observations(c.sightings), priors);
+  c.skeleton = fitPatient(reference.skeleton, rig, c.sightings, resourceDir());
   const Model fitted = deformedModel(reference, c.skeleton->shape);
   c.exam_fit = applyExam(fitted, c.exam, protocol, kMass_kg);
   std::filesystem::create_directories(folder / "results");

@@ -11,7 +11,6 @@
 #include "core/io/osim/osim_reader.h"
 #include "core/io/osim/osim_writer.h"
 #include "core/muscle/muscle_path.h"
-#include "core/passive/structure_moments.h"
 
 namespace sinew {
 namespace {
@@ -63,8 +62,12 @@ LengthDeviation exportJson(const Model& model, const ExportOptions& o, Session& 
       length_m[u] = pathLength(back.musculature.units[static_cast<std::size_t>(u)], X_WB);
     return length_m;
   });
-  deviation.structures = structureDeviation(
-      model, [&](const Posture& q) { return structureMoments_Nm(back.skeleton, back.passive_moments, q); });
+  deviation.structures = structureDeviation(model, [&](const Eigen::VectorXd& clinical) {
+    Eigen::VectorXd moments_Nm(clinical.size());
+    for (Eigen::Index i = 0; i < clinical.size(); ++i)
+      moments_Nm[i] = passiveMoment_Nm(back.passive_moments[static_cast<std::size_t>(i)], clinical[i]);
+    return moments_Nm;
+  });
   return deviation;
 }
 

@@ -5,17 +5,35 @@
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_results_json.h"
 #include "clinical/exam/physical_exam.h"
+#include "clinical/pipeline/patient_fit.h"
+#include "clinical/report/figure_texts.h"
 #include "imaging/rig/biplanar_rig.h"
 
 namespace sinew {
 namespace {
 
+/// Every figure with the same one the other way: fitted beside triangulated.
 std::string figureTable(const std::vector<BoneFigure>& figures) {
   std::vector<std::vector<std::string>> rows;
+  const auto interval = [](double lower, double upper) { return fixed(lower, 1) + " ... " + fixed(upper, 1); };
   for (const auto& f : figures)
-    rows.push_back({f.quantity, f.side, f.unit, fixed(f.value, 1),
-                    fixed(f.lower95, 1) + " ... " + fixed(f.upper95, 1), f.determined ? "" : "undetermined"});
-  return textTable({"quantity", "side", "unit", "estimate", "95 % interval", ""}, rows);
+    rows.push_back(
+        {f.quantity, f.side, f.unit, fixed(f.value, 1), interval(f.lower95, f.upper95),
+         f.triangulated ? "picks" : "model",
+         std::isfinite(f.other) ? fixed(f.other, 1) + " (" + interval(f.other_lower95, f.other_upper95) + ")" : "",
+         f.determined ? "" : "undetermined"});
+  return textTable({"quantity", "side", "unit", "estimate", "95 % interval", "from", "the other way", ""}, rows);
+}
+
+/// What is taken from the picks and why, and what further landmarks would determine.
+std::string figureRemarks(const SkeletonFit& fit, const NormTable& norms,
+                          const std::vector<ProtocolLandmark>& protocol) {
+  std::string text;
+  for (const auto& line : triangulatedTexts(fit.figures, norms)) text += line + "\n";
+  const auto advice = adviceTexts(fit.advice, norms, protocol);
+  if (!advice.empty()) text += "\nNot determined yet:\n";
+  for (const auto& line : advice) text += "  " + line + "\n";
+  return text;
 }
 
 void addFit(Commands& commands) {
@@ -31,14 +49,13 @@ void addFit(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const BiplanarRig rig = loadRig(o->rig);
-      std::vector<LandmarkObservation> observations;
-      for (const auto& s : loadSightings(o->sightings)) observations.push_back({s.name, s.view, s.uv_px, s.sigma_px});
-      const auto fit = fitSkeleton(session.reference().skeleton, rig.views, observations,
-                                   loadShapePriors(session.resourceDir()), {}, session.job());
+      const auto sightings = loadSightings(o->sightings);
+      const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
-      std::string text = figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
-                         fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) +
-                         " parameters undetermined\n";
+      std::string text =
+          figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
+          fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) + " parameters undetermined\n" +
+          figureRemarks(fit, loadNorms(session.resourceDir()), loadLandmarkProtocol(session.resourceDir()));
       if (fit.outcome == Outcome::Converged && !o->output.empty()) {
         saveModel(deformedModel(session.reference(), fit.shape), o->output);
         text += "written " + o->output + "\n";

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "app/cli/support/commands.h"
 #include "clinical/case/case_io.h"
@@ -40,10 +41,12 @@ bool isLateral(const Radiograph& image) {
 
 /// Puts the frontal radiograph first where the files say which is which.
 void orderViews(std::vector<std::filesystem::path>& files, std::vector<Radiograph>& images, Session& session) {
-  if (images.size() != 2 || !isLateral(images[0]) || isLateral(images[1])) return;
-  std::swap(files[0], files[1]);
-  std::swap(images[0], images[1]);
-  session.note("note: the files say that the second image is the frontal one; it becomes view 1");
+  const auto first = std::ranges::find_if_not(images, isLateral);
+  const std::ptrdiff_t at = first - images.begin();
+  if (first == images.begin() || first == images.end()) return;
+  std::rotate(files.begin(), files.begin() + at, files.begin() + at + 1);
+  std::rotate(images.begin(), images.begin() + at, images.begin() + at + 1);
+  session.note("note: the files say that image " + std::to_string(at + 1) + " is the frontal one; it becomes view 1");
 }
 
 void fillPatient(Patient& patient, const Radiograph& image) {
@@ -54,9 +57,22 @@ void fillPatient(Patient& patient, const Radiograph& image) {
   patient.sex = sex == "F" || sex == "M" || sex == "O" ? sex : "";
 }
 
-void expectPair(const std::vector<std::filesystem::path>& files, const char* option) {
-  if (!files.empty() && files.size() != 2)
-    throw InputError{{"sinew new", option, "two files, frontal first", std::to_string(files.size())}};
+/// @throws InputError unless there are two radiographs or more, and as many images of a phantom as there are views.
+void expectViews(const NewOptions& o) {
+  const auto refuse = [](const char* option, const std::string& expected, std::size_t found) {
+    throw InputError{{"sinew new", option, expected, std::to_string(found)}};
+  };
+  if (o.images.size() < 2) refuse("--image", "two files or more, frontal first", o.images.size());
+  if (!o.phantom.empty() && o.phantom.size() != o.images.size())
+    refuse("--phantom", std::to_string(o.images.size()) + " files, one a view", o.phantom.size());
+}
+
+/// @throws InputError if an image is given twice.
+void refuseRepeated(const std::vector<std::filesystem::path>& files) {
+  std::set<std::string> seen;
+  for (const auto& file : files)
+    if (!seen.insert(sha256OfFile(file)).second)
+      throw InputError{{"sinew new", "--image", "different radiographs", "the same image twice"}};
 }
 
 void refuseExisting(const std::filesystem::path& folder) {
@@ -76,8 +92,7 @@ Case makeCase(const NewOptions& o, Session& session) {
         readRadiograph(file, o.pixel_size_mm));  // unusable images are refused before anything is written
     session.warn(images.back().warnings);
   }
-  if (o.images.size() == 2 && sha256OfFile(o.images[0]) == sha256OfFile(o.images[1]))
-    throw InputError{{"sinew new", "--image", "two radiographs", "the same image twice"}};
+  refuseRepeated(o.images);
   orderViews(files, images, session);
   fillPatient(c.patient, images.at(0));
   c.patient.height_m = o.height_m;
@@ -97,17 +112,17 @@ Case makeCase(const NewOptions& o, Session& session) {
       return importFile(o.phantom[i], o.folder,
                         "calibration/view" + std::to_string(i + 1) + extensionOf(o.phantom[i]));
     };
-    c.phantom = {{import(0), import(1)}, importFile(o.beads, o.folder, "calibration/beads.csv")};
+    c.phantom = {{}, importFile(o.beads, o.folder, "calibration/beads.csv")};
+    for (std::size_t i = 0; i < o.phantom.size(); ++i) c.phantom->images.push_back(import(i));
   }
   return c;
 }
 
 ExitStatus makeNew(const NewOptions& o, Session& session) {
   refuseExisting(o.folder);
-  expectPair(o.images, "--image");
-  expectPair(o.phantom, "--phantom");
+  expectViews(o);
   if (o.phantom.empty() != o.beads.empty())
-    throw InputError{{"sinew new", "--phantom", "two phantom images together with --beads", "one without the other"}};
+    throw InputError{{"sinew new", "--phantom", "phantom images together with --beads", "one without the other"}};
   if (!o.phantom.empty() && !o.rig.empty())
     throw InputError{{"sinew new", "--rig", "a rig file or images of a phantom", "both"}};
   const Case c = makeCase(o, session);
@@ -122,13 +137,13 @@ ExitStatus makeNew(const NewOptions& o, Session& session) {
 void addNewCommand(Commands& commands) {
   auto o = std::make_shared<NewOptions>();
   auto& command =
-      addCommand(commands.app, "new", "make a case folder from two radiographs",
+      addCommand(commands.app, "new", "make a case folder from two or more radiographs",
                  "sinew new mycase --image ap.dcm --image lateral.dcm --sightings picks.csv --exam exam.json");
   command.add_option("CASE", o->folder, "folder to make")->required();
-  command.add_option("--image", o->images, "radiograph, twice: frontal, then lateral")->required();
+  command.add_option("--image", o->images, "radiograph, once a view: frontal, lateral, others")->required();
   command.add_option("--exam", o->exam, "physical examination (JSON)");
   command.add_option("--rig", o->rig, "view geometry (rig file)");
-  command.add_option("--phantom", o->phantom, "image of the bead phantom, twice: frontal, then lateral");
+  command.add_option("--phantom", o->phantom, "image of the bead phantom, once a view in the same order");
   command.add_option("--beads", o->beads, "beads of the phantom (CSV name,x_mm,y_mm,z_mm)");
   command.add_option("--sightings", o->sightings, "landmark picks (CSV name,view,u_px,v_px[,sigma_px])");
   command.add_option("--pixel-size-mm", o->pixel_size_mm, "size of a pixel, for images that do not state it");

@@ -15,8 +15,12 @@ namespace {
 constexpr double kMm = 1000, kDeg = 180 / std::numbers::pi;
 
 /// Properties of a view in words and numbers, with their unit in the name: for JSON and for people.
-Json describe(const View& view) {
-  Json json{{"projection", projectionName(view)}, {"width_px", view.width_px}, {"height_px", view.height_px}};
+Json describe(const RigView& view) {
+  Json json{{"role", nameOf(view.role)},
+            {"exposure", view.exposure},
+            {"projection", projectionName(view)},
+            {"width_px", view.width_px},
+            {"height_px", view.height_px}};
   if (const auto* c = std::get_if<ConeBeam>(&view.projection)) {
     json["focal_length_px"] = {c->fx_px, c->fy_px};
     json["principal_point_px"] = {c->cx_px, c->cy_px};
@@ -32,6 +36,8 @@ Json describe(const View& view) {
 }
 
 Json rigInfo(const BiplanarRig& rig) {
+  Json views = Json::array();
+  for (const auto& view : rig.views) views.push_back(describe(view));
   return {{"format", "sinew.rig_info"},
           {"version", 1},
           {"method", rig.calibration.method},
@@ -40,7 +46,7 @@ Json rigInfo(const BiplanarRig& rig) {
           {"rms_px", numberOrNull(rig.calibration.rms_px)},
           {"accuracy_mm", numberOrNull(rig.calibration.accuracy_mm)},
           {"angle_between_views_deg", kDeg * angleBetweenViews_rad(rig)},
-          {"views", {describe(rig.views[0]), describe(rig.views[1])}},
+          {"views", views},
           {"warnings", warningsToJson(rig.calibration.warnings)}};
 }
 
@@ -53,8 +59,8 @@ std::string rigText(const BiplanarRig& rig) {
                                                               : "frame of the calibration, not the patient's");
   text += "\nviews        " + fixed(kDeg * angleBetweenViews_rad(rig), 1) + " deg apart\n";
   std::vector<std::vector<std::string>> rows;
-  for (int i = 0; i < 2; ++i) {
-    const Json view = describe(rig.views[static_cast<std::size_t>(i)]);
+  for (std::size_t i = 0; i < rig.views.size(); ++i) {
+    const Json view = describe(rig.views[i]);
     for (const auto& [name, value] : view.items()) {
       std::string cell;
       const Json numbers = value.is_array() ? value : Json::array({value});
@@ -79,18 +85,19 @@ void finish(Session& session, const BiplanarRig& rig, const std::string& output)
 }
 
 BiplanarRig importRig(const std::string& format, const std::vector<std::filesystem::path>& files) {
-  const auto needs = [&](std::size_t count) {
-    if (files.size() != count)
-      throw InputError{
-          {"sinew rig import", "FILES", std::to_string(count) + " for " + format, std::to_string(files.size())}};
+  const auto expect = [&](bool good, const std::string& count) {
+    if (!good)
+      throw InputError{{"sinew rig import", "FILES", count + " for " + format, std::to_string(files.size())}};
   };
   if (format == "json") {
-    needs(1);
+    expect(files.size() == 1, "1");
     return loadRig(files[0]);
   }
-  needs(2);
-  if (format == "dicom") return rigFromDicom(readRadiograph(files[0]), readRadiograph(files[1]));
-  return importTextCalibration(files, format);
+  expect(files.size() >= 2, "2 or more");
+  if (format != "dicom") return importTextCalibration(files, format);
+  std::vector<Radiograph> images;
+  for (const auto& file : files) images.push_back(readRadiograph(file));
+  return rigFromDicom(images);
 }
 
 void addImport(CLI::App& rig, Commands& commands) {
@@ -123,17 +130,17 @@ void addCalibrate(CLI::App& rig, Commands& commands) {
     std::string output;
   };
   auto o = std::make_shared<Options>();
-  auto& command = addCommand(rig, "calibrate", "cone-beam pair from two images of a bead phantom",
+  auto& command = addCommand(rig, "calibrate", "cone-beam views from images of a bead phantom",
                              "sinew rig calibrate --image ap.dcm --image lateral.dcm --beads beads.csv -o rig.json");
-  command.add_option("--image", o->images, "image of the phantom, twice: frontal, then lateral")->required();
+  command.add_option("--image", o->images, "image of the phantom, once a view: frontal, lateral, others")->required();
   command.add_option("--beads", o->beads, "its beads (CSV name,x_mm,y_mm,z_mm[,diameter_mm])")->required();
   command.add_option("--sightings", o->sightings, "picked beads (CSV name,view,u_px,v_px) instead of detecting them");
   command.add_option("-o,--output", o->output, "rig file to write");
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
-      if (o->images.size() != 2)
-        throw InputError{{"sinew rig calibrate", "--image", "two images", std::to_string(o->images.size())}};
-      const std::array images{o->images[0], o->images[1]};
+      const auto& images = o->images;
+      if (images.size() < 2)
+        throw InputError{{"sinew rig calibrate", "--image", "two images or more", std::to_string(images.size())}};
       const auto calibration = o->sightings.empty()
                                    ? calibrateFromPhantom(images, o->beads, session.job())
                                    : calibrateFromPickedBeads(images, o->beads, o->sightings, session.job());

@@ -80,7 +80,7 @@ void addDemo(Commands& commands) {
     std::filesystem::path folder = "sinew-demo";
     unsigned seed = 1;
     std::string rig = "cone-beam";
-    int binning = 1;
+    int binning = 1, views = 2;
   };
   auto o = std::make_shared<Options>();
   auto& command = addCommand(commands.app, "demo",
@@ -90,6 +90,9 @@ void addDemo(Commands& commands) {
   command.add_option("--seed", o->seed, "which patient")->capture_default_str();
   command.add_option("--rig", o->rig, "cone-beam (pair calibrated from a bead phantom) or slot-scan")
       ->capture_default_str();
+  command.add_option("--views", o->views, "3: with an oblique film (cone beam only)")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 3));
   command.add_option("--binning", o->binning, "detector pixels joined into one: 2 quarters size and time")
       ->capture_default_str()
       ->check(CLI::Range(1, 4));
@@ -99,11 +102,14 @@ void addDemo(Commands& commands) {
       if (std::ranges::find(rigs, o->rig) == rigs.end())
         throw InputError{
             {"sinew demo", "--rig", "cone-beam or slot-scan", "'" + o->rig + "'" + didYouMean(o->rig, rigs)}};
+      if (o->views == 3 && o->rig == rigs[1])
+        throw InputError{{"sinew demo", "--views", "2 for a slot scan, which makes both at once", "3"}};
       refuseForeignFolder(o->folder);
       SyntheticOptions options;
       options.resource_dir = session.resourceDir();
       options.seed = o->seed;
       options.binning = o->binning;
+      options.views = o->views;
       options.rig = o->rig == rigs[0] ? SyntheticRig::ConeBeam : SyntheticRig::SlotScan;
       const auto patient = drawSyntheticPatient(*session.retargeting(), options);
       Case c = writeSyntheticCase(patient, session.reference(), options, o->folder, session.job());

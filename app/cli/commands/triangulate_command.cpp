@@ -51,9 +51,9 @@ void addTriangulateCommand(Commands& commands) {
   };
   auto options = std::make_shared<Options>();
   auto& command =
-      addCommand(commands.app, "triangulate", "points in space from what two views show, with covariance",
+      addCommand(commands.app, "triangulate", "points in space from what two views or more show, with covariance",
                  "sinew triangulate --rig rig.json --sightings picks.csv --json\n"
-                 "  picks.csv: name,view,u_px,v_px[,sigma_px]; view 1 or 2; (0,0) = centre of the top-left "
+                 "  picks.csv: name,view,u_px,v_px[,sigma_px]; views count from 1; (0,0) = centre of the top-left "
                  "pixel");
   command.add_option("--rig", options->rig, "rig file")->required();
   command.add_option("--sightings", options->sightings, "CSV file of picks")->required();
@@ -63,7 +63,7 @@ void addTriangulateCommand(Commands& commands) {
       const auto triangulation = triangulateAll(rig, loadSightings(options->sightings));
       session.warn(triangulation.warnings);
       if (triangulation.points.empty())
-        throw InputError{{options->sightings, "name", "a point that is seen in both views", "none"}};
+        throw InputError{{options->sightings, "name", "a point that is seen in two views", "none"}};
       session.result(triangulationJson(triangulation), triangulationText(triangulation));
       return ExitStatus::Done;
     };

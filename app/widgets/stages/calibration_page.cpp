@@ -91,6 +91,7 @@ CalibrationPage::CalibrationPage(Workspace& workspace)
   for (int view = 0; view < 2; ++view) {
     panes_[std::size_t(view)] = new RadiographPane{workspace, view, false};
     row->addWidget(panes_[std::size_t(view)], 1);
+    connect(panes_[std::size_t(view)], &RadiographPane::viewChanged, this, &CalibrationPage::showBeads);
   }
   body().addLayout(row, 1);
 }
@@ -105,10 +106,10 @@ QWidget* CalibrationPage::makeSourceCard() {
   tags_->setObjectName("source_tags");
   auto* group = new QButtonGroup{this};
   for (auto* button : {phantom_, imported_, tags_}) group->addButton(button);
-  choose_phantom_ =
-      makeButton("choose_phantom", tr("Choose …"), "", tr("Two phantom images and the file of bead positions"));
-  choose_rig_ =
-      makeButton("choose_rig", tr("Choose …"), "", tr("A Sinew rig, or two Autoscoper or MayaCam text files"));
+  choose_phantom_ = makeButton("choose_phantom", tr("Choose …"), "",
+                               tr("An image of the phantom for every view, and the file of bead positions"));
+  choose_rig_ = makeButton("choose_rig", tr("Choose …"), "",
+                           tr("A Sinew rig, or an Autoscoper or MayaCam text file for every view"));
   const auto line = [&](QRadioButton* radio, QPushButton* button) {
     auto* row = new QHBoxLayout;
     row->addWidget(radio, 1);
@@ -185,7 +186,11 @@ void CalibrationPage::refreshGeometry() {
   method_->setText(tr("%1  ·  calibration %2  ·  %3")
                        .arg(methodTitle(record.method), QString::fromStdString(record.id),
                             rig->patient_aligned ? tr("in the patient's axes") : tr("in the laboratory's axes")));
-  for (int view = 0; view < 2; ++view) {
+  QStringList headings{tr("Geometry")};
+  for (int view = 0; view < int(rig->views.size()); ++view) headings << viewTitle(shownCase(), view);
+  geometry_->setColumnCount(int(headings.size()));
+  geometry_->setHorizontalHeaderLabels(headings);
+  for (int view = 0; view < int(rig->views.size()); ++view) {
     const auto rows = describe(rig->views[std::size_t(view)]);
     geometry_->setRowCount(std::max(geometry_->rowCount(), int(rows.size())));
     for (int i = 0; i < int(rows.size()); ++i) {
@@ -198,15 +203,16 @@ void CalibrationPage::refreshGeometry() {
 
 void CalibrationPage::showBeads() {
   const Case& c = shownCase();
-  for (int view = 0; view < 2; ++view) {
+  for (auto* pane : panes_) {
+    const std::size_t view = std::size_t(pane->viewIndex());
     std::vector<MarkOverlay> marks;
-    if (c.phantom && c.rig) {
+    if (c.phantom && c.rig && view < c.rig->views.size()) {
       const auto object = loadCalibrationObject(checkedFile(c.phantom->beads, workspace().document().folder()));
       for (const auto& bead : object.beads)
-        if (const auto uv_px = project(c.rig->views[std::size_t(view)], bead.p_WQ))
+        if (const auto uv_px = project(c.rig->views[view], bead.p_WQ))
           marks.push_back({bead.name, {uv_px->x(), uv_px->y()}, colour::kMidline, true, {}});
     }
-    panes_[std::size_t(view)]->view().setMarks(std::move(marks), {});
+    pane->view().setMarks(std::move(marks), {});
   }
 }
 
@@ -227,12 +233,13 @@ void CalibrationPage::askForRig() {
 
 void CalibrationPage::askForPhantom() {
   const QString filter = tr("Radiographs (*.dcm *.tif *.tiff *.png);;All files (*)");
-  const auto frontal = askForFile(this, tr("Frontal image of the phantom"), filter);
-  if (frontal.empty()) return;
-  const auto lateral = askForFile(this, tr("Lateral image of the phantom"), filter);
-  if (lateral.empty()) return;
+  std::vector<std::filesystem::path> images;
+  for (int view = 0; view < std::max(2, int(shownCase().images.size())); ++view) {
+    images.push_back(askForFile(this, tr("%1 image of the phantom").arg(viewTitle(shownCase(), view)), filter));
+    if (images.back().empty()) return;
+  }
   const auto beads = askForFile(this, tr("Bead positions: name,x_mm,y_mm,z_mm"), tr("Tables (*.csv);;All files (*)"));
-  if (!beads.empty()) importPhantom({frontal, lateral}, beads);
+  if (!beads.empty()) importPhantom(images, beads);
 }
 
 void CalibrationPage::importRig(const std::vector<std::filesystem::path>& files, const std::string& method) {
@@ -242,7 +249,7 @@ void CalibrationPage::importRig(const std::vector<std::filesystem::path>& files,
   refresh();
 }
 
-void CalibrationPage::importPhantom(const std::array<std::filesystem::path, 2>& images,
+void CalibrationPage::importPhantom(const std::vector<std::filesystem::path>& images,
                                     const std::filesystem::path& beads) {
   const auto& folder = workspace().document().folder();
   workspace().document().edit(tr("Choose phantom images"), [&](Case& c) {
@@ -252,7 +259,10 @@ void CalibrationPage::importPhantom(const std::array<std::filesystem::path, 2>& 
                         "calibration/" + name + "-" + sha256OfFile(file).substr(0, 12) + file.extension().string());
     };
     for (const auto& image : images) readRadiograph(image);
-    usePhantom(c, {{import(images[0], "view1"), import(images[1], "view2")}, import(beads, "beads")});
+    PhantomImages phantom{{}, import(beads, "beads")};
+    for (const auto& image : images)
+      phantom.images.push_back(import(image, "view" + std::to_string(phantom.images.size() + 1)));
+    usePhantom(c, phantom);
   });
   refresh();
 }

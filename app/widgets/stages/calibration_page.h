@@ -20,7 +20,8 @@ class CalibrationPage : public StagePage {
 
   /// `method`: "json" for one rig file, "autoscoper" or "mayacam" for one text file per view.
   void importRig(const std::vector<std::filesystem::path>& files, const std::string& method);
-  void importPhantom(const std::array<std::filesystem::path, 2>& images, const std::filesystem::path& beads);
+  /// `images`: one for every radiograph of the case, in its order.
+  void importPhantom(const std::vector<std::filesystem::path>& images, const std::filesystem::path& beads);
 
  protected:
   void refresh() override;

@@ -29,7 +29,7 @@ std::pair<double, double> greyRange(const Radiograph& radiograph, double low, do
 }
 
 RadiographPane::RadiographPane(Workspace& workspace, int view, bool full_tools, QWidget* parent)
-    : QWidget{parent}, workspace_{workspace}, index_{view}, slot_{view} {
+    : QWidget{parent}, workspace_{workspace}, place_{view}, index_{view} {
   const QString prefix = view == 0 ? "frontal_" : "lateral_";
   auto* strip = new QWidget;
   strip->setProperty("role", "view_strip");
@@ -38,7 +38,14 @@ RadiographPane::RadiographPane(Workspace& workspace, int view, bool full_tools, 
   tools->setContentsMargins(12, 4, 6, 4);
   tools->setSpacing(4);
   title_ = makeLabel(view == 0 ? tr("Frontal") : tr("Lateral"), "heading");
+  chooser_ = new QComboBox;
+  chooser_->setObjectName(prefix + "chooser");
+  chooser_->setAccessibleName(tr("View shown here"));
+  chooser_->setToolTip(tr("View shown here"));
+  chooser_->hide();
+  connect(chooser_, &QComboBox::activated, this, &RadiographPane::setViewIndex);
   tools->addWidget(title_);
+  tools->addWidget(chooser_);
   tools->addStretch();
   if (full_tools) {
     presets_ = new QComboBox;
@@ -100,35 +107,63 @@ RadiographPane::RadiographPane(Workspace& workspace, int view, bool full_tools, 
   connect(fit, &QToolButton::clicked, view_, &RadiographView::fit);
   connect(one, &QToolButton::clicked, view_, &RadiographView::oneToOne);
   connect(invert_, &QToolButton::clicked, this, [this](bool on) {
-    DisplayWindow next = workspace_.view().window(slot_);
+    DisplayWindow next = workspace_.view().window(slot());
     next.invert = on;
-    workspace_.view().setWindow(slot_, next);
+    workspace_.view().setWindow(slot(), next);
   });
   connect(view_, &RadiographView::displayChanged, this,
-          [this](const DisplayWindow& display) { workspace_.view().setWindow(slot_, display); });
+          [this](const DisplayWindow& display) { workspace_.view().setWindow(slot(), display); });
   connect(view_, &RadiographView::hovered, this, &RadiographPane::readPixel);
   connect(view_, &RadiographView::left, this, [this] { showWindow(); });
   connect(view_, &RadiographView::zoomChanged, this, [this] { showWindow(); });
   connect(&workspace_.view(), &ViewState::windowChanged, this, [this](int changed) {
-    if (changed == slot_) showWindow();
+    if (changed == slot()) showWindow();
   });
 }
 
+int RadiographPane::slot() const {
+  return ViewState::slotOf(index_, phantom_);
+}
+
 void RadiographPane::setPhantom(bool on) {
-  slot_ = on ? index_ + 2 : index_;
-  title_->setText((index_ == 0 ? tr("Frontal") : tr("Lateral")) + (on ? tr(" · phantom") : QString{}));
+  phantom_ = on;
+  refreshTitle();
+}
+
+void RadiographPane::setViewIndex(int view) {
+  if (view == index_) return;
+  index_ = view;
+  refresh();
+  view_->fit();
+  emit viewChanged();
+}
+
+void RadiographPane::refreshTitle() {
+  const Case& c = workspace_.document().current();
+  const int count = std::max(2, int(c.images.size()));
+  if (index_ >= count) index_ = place_;  // that view was removed
+  const QString suffix = phantom_ ? tr(" · phantom") : QString{};
+  title_->setText(viewTitle(c, index_) + suffix);
+  const QSignalBlocker block{chooser_};
+  chooser_->clear();
+  for (int view = 0; view < count; ++view) chooser_->addItem(viewTitle(c, view) + suffix);
+  chooser_->setCurrentIndex(index_);
+  chooser_->setVisible(count > 2);
+  title_->setVisible(count <= 2);
+  view_->setAccessibleName(tr("%1 radiograph").arg(viewTitle(c, index_)));
 }
 
 void RadiographPane::refresh() {
   const Case& c = workspace_.document().current();
+  refreshTitle();
   std::shared_ptr<const Radiograph> radiograph;
-  QString placeholder = index_ == 0 ? tr("No frontal radiograph yet") : tr("No lateral radiograph yet");
-  const bool phantom = slot_ != index_;
+  QString placeholder = tr("No %1 radiograph yet").arg(viewTitle(c, index_).toLower());
   std::optional<CaseImage> image;
-  if (phantom && c.phantom)
-    image = CaseImage{c.phantom->images[std::size_t(index_)], {}};
-  else if (!phantom && std::size_t(index_) < c.images.size())
-    image = c.images[std::size_t(index_)];
+  const std::size_t index = std::size_t(index_);
+  if (phantom_ && c.phantom && index < c.phantom->images.size())
+    image = CaseImage{c.phantom->images[index], {}};
+  else if (!phantom_ && index < c.images.size())
+    image = c.images[index];
   if (image) {
     try {
       radiograph = workspace_.images().image(*image, workspace_.document().folder());
@@ -140,8 +175,8 @@ void RadiographPane::refresh() {
   view_->setRadiograph(radiograph);
   // A frontal view is read as if facing the patient: the patient's right is on the viewer's left. World X is
   // anterior.
-  if (c.rig && c.rig->patient_aligned && radiograph) {
-    const auto& R_CW = c.rig->views[std::size_t(index_)].R_CW;
+  if (c.rig && c.rig->patient_aligned && radiograph && index < c.rig->views.size()) {
+    const auto& R_CW = c.rig->views[index].R_CW;
     const Eigen::Vector3d u_W = R_CW.row(0);  // image right, in the world
     if (std::abs(u_W.z()) > std::abs(u_W.x()))
       view_->setOrientation(u_W.z() > 0 ? tr("L") : tr("R"), u_W.z() > 0 ? tr("R") : tr("L"));
@@ -154,7 +189,7 @@ void RadiographPane::refresh() {
 }
 
 void RadiographPane::showWindow() {
-  const DisplayWindow& display = workspace_.view().window(slot_);
+  const DisplayWindow display = workspace_.view().window(slot());
   view_->setDisplay(display);
   invert_->setChecked(display.invert);
   const Radiograph* r = view_->radiograph();
@@ -187,11 +222,11 @@ void RadiographPane::readPixel(const QPointF& uv_px) {
 }
 
 void RadiographPane::setWindow(double center, double width) {
-  DisplayWindow next = workspace_.view().window(slot_);
+  DisplayWindow next = workspace_.view().window(slot());
   next.center = center;
   next.width = width;
   if (presets_) presets_->setCurrentIndex(4);
-  workspace_.view().setWindow(slot_, next);
+  workspace_.view().setWindow(slot(), next);
 }
 
 void RadiographPane::applyPreset(int index) {
@@ -199,8 +234,8 @@ void RadiographPane::applyPreset(int index) {
   if (!r || index == 4) return;
   if (index == 0) {
     DisplayWindow next;
-    next.invert = workspace_.view().window(slot_).invert;
-    workspace_.view().setWindow(slot_, next);
+    next.invert = workspace_.view().window(slot()).invert;
+    workspace_.view().setWindow(slot(), next);
     return;
   }
   // Dense parts hold the larger grey values unless the file is MONOCHROME1.

@@ -101,14 +101,15 @@ class MjcfWriter {
   }
 
   void joint(const std::string& indent, const Joint& joint) {
-    const Coordinate& first = skeleton_.coordinates[joint.first_coordinate];
-    if (joint.type == JointType::Free)
+    if (joint.type == JointType::Free) {
       text_ += indent + "<freejoint name=\"" + escaped(joint.name) + "\"/>\n";
-    else if (joint.type == JointType::Revolute)
-      coordinateHinge(indent, first, first.axis);
-    else
+    } else if (mjcfHasHinges(skeleton_, static_cast<int>(&joint - skeleton_.joints.data()))) {
+      for (int i = joint.first_coordinate; i < joint.first_coordinate + joint.coordinate_count; ++i)
+        coordinateHinge(indent, skeleton_.coordinates[i], skeleton_.coordinates[i].axis);
+    } else {
       text_ += indent + "<joint name=\"" + escaped(joint.name) + "\" type=\"ball\" damping=\"0.1\" " +
                range(0, largestTurn_rad(skeleton_, joint)) + "/>\n";
+    }
   }
 
   /// Path points that are pinned to this segment.
@@ -203,7 +204,7 @@ class MjcfWriter {
   /// and `lmax` and straight beyond, where it reaches 1.5 `fpmax` at `lmax`.
   void actuators() {
     constexpr double kShort = 0.5;
-    text_ += "  <actuator>\n";
+    text_ += "  <actuator>\n" + structures_;  // MuJoCo wants actuators without a state before those with one
     for (const auto& unit : units_) {
       const double l0 = unit.optimal_fiber_length_m, slack = unit.tendon_slack_length_m;
       const HillParameters& hill = unit.curves;
@@ -216,14 +217,13 @@ class MjcfWriter {
                "\" lmax=\"" + number(longest) + "\" vmax=\"" + number(hill.max_velocity_1_s) + "\" fpmax=\"" +
                number(2.0 / 3) + "\" fvmax=\"" + number(hill.max_lengthening) + "\"/>\n";
     }
-    text_ += structures_;
     text_ += "  </actuator>\n";
   }
 
   const Skeleton& skeleton_;
   const std::vector<Segment> segments_;  ///< driven bones with their mass
   const std::vector<MusculotendonUnit>& units_;
-  const std::string structures_;  ///< actuators after the muscles
+  const std::string structures_;  ///< actuators, before those of the muscles
   std::string text_;
 };
 
@@ -237,8 +237,8 @@ LengthDeviation mjcfDeviation(const Model& model) {
   LengthDeviation deviation =
       lengthDeviation(model, foreignFromModel(model, {.blended = ForeignOptions::Blended::HeaviestAnchor,
                                                       .patella = ForeignOptions::Patella::Quartic}));
-  deviation.structures =
-      structureDeviation(model, [&](const Posture& q) { return mjcfStructureMoments_Nm(model, q); });
+  deviation.structures = structureDeviation(
+      model, [&](const Eigen::VectorXd& clinical) { return mjcfStructureMoments_Nm(model, clinical); });
   return deviation;
 }
 

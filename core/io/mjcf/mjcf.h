@@ -18,10 +18,12 @@ namespace sinew {
 ///   PatellaDriver::glide() the patella is exact;
 /// - the wrist ball is pronation (ulna to radius) and two hinges (radius to hand). The hand is exact; the radius
 ///   turns by the clinical pronation instead of the wrist's twist, the same while flexion or deviation is zero;
-/// - a ball joint's limit is one cone: the largest turn in the athlete envelope;
-/// - passive structures are exponentials of four straight pieces, within 2.5 % of the end's moment; about a ball
-/// joint
-///   of the components of its rotation vector instead of the clinical angles (mjcf_structures_internal.h);
+/// - ball joints are three hinges about the clinical axes in their order, with the limits of the athlete envelope,
+///   except the shoulders, whose middle angle goes beyond 90 deg where hinges lock: balls, limited by one cone, the
+///   largest turn in the envelope;
+/// - passive structures are exponentials of four straight pieces, within 2.7 % of the end's moment; about the
+/// shoulders
+///   of the components of the rotation vector instead of the clinical angles (mjcf_structures_internal.h);
 /// - MuJoCo's muscle has no pennation and a rigid tendon: force F_max cos(pennation). Its curves are others than
 ///   Thelen's; they take the unit's passive strain, fastest shortening and lengthening force, and lose half of the
 ///   active force where ours does on the short side.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/passive/structure_moments.h"
 #include "core/skeleton/clinical_angles.h"
 
 namespace sinew {
@@ -16,14 +17,10 @@ struct Hinge {
 constexpr Hinge kHinges[] = {
     {-3.691754, 0.089520}, {-1.515124, 0.294119}, {-0.488114, 0.493647}, {0.188289, 0.693090}};
 
-bool isWrist(const Skeleton& skeleton, int joint) {
-  return std::ranges::any_of(skeleton.radii, [&](const RadiusDriver& d) { return d.wrist_joint == joint; });
-}
-
-/// Joint and direction that a coordinate is for MuJoCo: hinges of their own for revolute joints and wrists.
+/// Joint and direction that a coordinate is for MuJoCo.
 std::string transmission(const Skeleton& skeleton, const Coordinate& c, int index) {
   const Joint& joint = skeleton.joints[std::size_t(c.joint)];
-  if (joint.type == JointType::Revolute || isWrist(skeleton, c.joint)) return "joint=\"" + c.name + "\" gear=\"1\"";
+  if (mjcfHasHinges(skeleton, c.joint)) return "joint=\"" + c.name + "\" gear=\"1\"";
   const Eigen::Vector3d& axis = skeleton.coordinates[std::size_t(index)].axis;
   char gear[96];
   std::snprintf(gear, sizeof gear, "%.12g %.12g %.12g", axis.x(), axis.y(), axis.z());
@@ -55,16 +52,24 @@ double hingesMoment_Nm(const PassiveMoment& m, double length_rad) {
 
 }  // namespace
 
-Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Posture& posture) {
+bool mjcfHasHinges(const Skeleton& skeleton, int joint) {
+  const Joint& j = skeleton.joints[std::size_t(joint)];
+  if (j.type != JointType::Ball) return j.type == JointType::Revolute;
+  if (std::ranges::any_of(skeleton.radii, [&](const RadiusDriver& d) { return d.wrist_joint == joint; })) return true;
+  constexpr double kFree_rad = 1.5;  // 86 deg
+  const Coordinate& middle = skeleton.coordinates[std::size_t(j.first_coordinate + 1)];
+  return std::max(middle.athlete_max_rad, -middle.athlete_min_rad) < kFree_rad;
+}
+
+Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Eigen::VectorXd& clinical) {
   const Skeleton& s = model.skeleton;
-  const Eigen::VectorXd clinical = clinicalFromPosture(s, posture);
-  const Kinematics rates = clinicalKinematics(s, posture);
+  const Posture posture = postureFromClinical(s, clinical);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(s.coordinateCount());
   for (int j = 0; !model.passive_moments.empty() && j < static_cast<int>(s.joints.size()); ++j) {
     const Joint& joint = s.joints[std::size_t(j)];
     const int first = joint.first_coordinate;
     if (joint.type == JointType::Free) continue;
-    if (joint.type == JointType::Revolute || isWrist(s, j)) {
+    if (mjcfHasHinges(s, j)) {
       for (int i = first; i < first + joint.coordinate_count; ++i)
         result[i] = hingesMoment_Nm(model.passive_moments[std::size_t(i)], clinical[i]);
       continue;
@@ -75,10 +80,9 @@ Eigen::VectorXd mjcfStructureMoments_Nm(const Model& model, const Posture& postu
       moment_B_Nm +=
           axis * hingesMoment_Nm(model.passive_moments[std::size_t(i)], axis.dot(posture.segment<3>(first)));
     }
-    const Eigen::Vector3d moment_W_Nm = rates.X_WB[std::size_t(joint.child)].linear() * moment_B_Nm;
-    for (const SegmentMotion& motion : rates.motions[std::size_t(joint.child)])
-      if (motion.coordinate >= first && motion.coordinate < first + 3)
-        result[motion.coordinate] = motion.twist.w.dot(moment_W_Nm);
+    // The rotation vector is the same in both frames, the moment is turned with the child.
+    const Eigen::Matrix3d R_JB = rotationFromVector<double>(posture.segment<3>(first));
+    result.segment<3>(first) = angleRates(s, joint, clinical.segment<3>(first)).transpose() * (R_JB * moment_B_Nm);
   }
   return result;
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTwoSided95 = 1.959964;
 constexpr double kMm = 1000;
+constexpr double kLeastTurn_deg = 0.5, kLeastSway_mm = 2;  // what is worth a word, if it is certain
 
 /// Length of a vector whose entries have `sd`, with the interval along its own direction.
 ExposureMovement::Amount amountOf(const Eigen::VectorXd& standardized, const Eigen::MatrixXd& covariance, double sd) {
@@ -24,41 +25,17 @@ ExposureMovement::Amount amountOf(const Eigen::VectorXd& standardized, const Eig
   return {sd * length, sd * std::max(0.0, length - half), sd * (length + half)};
 }
 
-/// Squared size of an estimate in units of what it would scatter if the truth were 0, given its covariance P after
-/// the fit and a prior of SD 1: the estimate is then scattered by (1 - P) P. Chi-squared, as many degrees of freedom
-/// as entries that the images see.
-double evidence(const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance, int& freedom) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen{covariance};
-  double sum = 0;
-  freedom = 0;
-  for (Eigen::Index i = 0; i < estimate.size(); ++i) {
-    const double P = std::clamp(eigen.eigenvalues()[i], 0.0, 1.0);
-    constexpr double kUnseen = 0.98;  // the prior is all there is
-    if (P > kUnseen) continue;
-    sum += std::pow(eigen.eigenvectors().col(i).dot(estimate), 2) / ((1 - P) * std::max(P, 1e-12));
-    ++freedom;
-  }
-  return sum;
-}
-
-/// Quantile of chi-squared that is exceeded with a chance of 1 in 2000 (Wilson & Hilferty 1931).
-double rarelyExceeded(int freedom) {
-  constexpr double kNormalQuantile = 3.2905;
-  const double d = std::max(freedom, 1), v = 2 / (9 * d);
-  return d * std::pow(1 - v + kNormalQuantile * std::sqrt(v), 3);
-}
-
-bool isMoved(const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance) {
-  int freedom = 0;
-  const double sum = evidence(estimate, covariance, freedom);
-  return freedom > 0 && sum > rarelyExceeded(freedom);
-}
-
 /// A pattern of bending: coordinates with their shares.
 struct BendPattern {
   std::vector<std::string> joints;
   std::map<std::string, double> shares;  ///< by coordinate
+  double needed_sigmas;                  ///< before it is believed
 };
+
+/// A joint by itself is one of many hypotheses: a chance of 1 in 7000 each. That both knees give is what patients do.
+constexpr double kSingleJoint_sigmas = 3.8, kBothKnees_sigmas = 2.8;
+/// Less is how anybody stands, and within the prior.
+constexpr double kLeastBend_rad = 2 * kRadPerDeg;
 
 std::vector<BendPattern> bendPatterns() {
   std::vector<BendPattern> patterns;
@@ -66,22 +43,22 @@ std::vector<BendPattern> bendPatterns() {
                              "ankle_dorsiflexion", "ankle_inversion", "ankle_internal_rotation"})
     for (const std::string side : {"_r", "_l"}) {
       const std::string name = single;
-      patterns.push_back({{name.substr(0, name.find('_')) + side}, {{name + side, 1}}});
+      patterns.push_back({{name.substr(0, name.find('_')) + side}, {{name + side, 1}}, kSingleJoint_sigmas});
     }
   const auto crouch = [](const std::string& side, std::map<std::string, double>& shares) {
     shares["hip_flexion" + side] = shares["ankle_dorsiflexion" + side] = 0.5;
     shares["knee_flexion" + side] = 1;
   };
   for (const std::string side : {"_r", "_l"}) {
-    BendPattern leg{{"knee" + side}, {}};
+    BendPattern leg{{"knee" + side}, {}, kSingleJoint_sigmas};
     crouch(side, leg.shares);
     patterns.push_back(leg);
   }
-  BendPattern both{{"knee_r", "knee_l"}, {}};
+  BendPattern both{{"knee_r", "knee_l"}, {}, kBothKnees_sigmas};
   crouch("_r", both.shares);
   crouch("_l", both.shares);
   patterns.push_back(both);
-  patterns.push_back({{"knee_r", "knee_l"}, {{"knee_flexion_r", 1}, {"knee_flexion_l", 1}}});
+  patterns.push_back({{"knee_r", "knee_l"}, {{"knee_flexion_r", 1}, {"knee_flexion_l", 1}}, kBothKnees_sigmas});
   return patterns;
 }
 
@@ -115,9 +92,9 @@ std::string withInterval(const ExposureMovement::Amount& amount, int decimals, c
 
 }  // namespace
 
-LegBend likeliestBend(const Skeleton& skeleton, const Nuisances& nuisances, const Eigen::VectorXd& y,
-                      const Eigen::MatrixXd& covariance) {
-  LegBend likeliest;
+std::optional<LegBend> likeliestBend(const Skeleton& skeleton, const Nuisances& nuisances, const Eigen::VectorXd& y,
+                                     const Eigen::MatrixXd& covariance) {
+  std::optional<LegBend> likeliest;
   const auto patterns = bendPatterns();
   for (int e = 1; e < nuisances.exposureCount(); ++e) {
     std::vector<int> entries;
@@ -132,7 +109,9 @@ LegBend likeliestBend(const Skeleton& skeleton, const Nuisances& nuisances, cons
       const double information = direction.dot(root.solve(direction)) - direction.squaredNorm();
       if (!(information > 1e-6 * direction.squaredNorm())) continue;
       const double along = direction.dot(score), sigmas = std::abs(along) / std::sqrt(information);
-      if (sigmas > likeliest.sigmas) likeliest = {pattern.joints, along / information, sigmas};
+      const double angle_rad = along / information;
+      if (sigmas < pattern.needed_sigmas || std::abs(angle_rad) < kLeastBend_rad) continue;
+      if (!likeliest || sigmas > likeliest->sigmas) likeliest = {e, pattern.joints, angle_rad, sigmas};
     }
   }
   return likeliest;
@@ -140,7 +119,8 @@ LegBend likeliestBend(const Skeleton& skeleton, const Nuisances& nuisances, cons
 
 std::vector<ExposureMovement> describeMovements(const Skeleton& skeleton, std::span<const FitView> views,
                                                 const Nuisances& nuisances, const Eigen::VectorXd& y,
-                                                const Eigen::MatrixXd& covariance) {
+                                                const Eigen::MatrixXd& covariance,
+                                                const std::optional<LegBend>& bend) {
   std::vector<ExposureMovement> movements;
   const MovementPrior& prior = nuisances.movementPrior();
   for (int e = 1; e < nuisances.exposureCount(); ++e) {
@@ -152,15 +132,15 @@ std::vector<ExposureMovement> describeMovements(const Skeleton& skeleton, std::s
         amountOf(y.segment<3>(first), covariance.block<3, 3>(first, first), prior.turn_rad / kRadPerDeg);
     movement.sway_mm =
         amountOf(y.segment<3>(first + 3), covariance.block<3, 3>(first + 3, first + 3), kMm * prior.shift_m);
-    movement.moved = isMoved(y.segment<6>(first), covariance.block<6, 6>(first, first));
+    movement.moved = movement.turn_deg.lower95 > kLeastTurn_deg || movement.sway_mm.lower95 > kLeastSway_mm;
     std::map<int, std::vector<int>> entries_of;  // of y, by joint
     for (const auto& change : nuisances.jointChanges(e)) entries_of[change.joint].push_back(change.y);
     for (const auto& [joint, entries] : entries_of) {
       const Eigen::VectorXd estimate = y(entries);
       const Eigen::MatrixXd spread = covariance(entries, entries);
-      movement.joints.push_back({skeleton.joints[joint].name,
-                                 amountOf(estimate, spread, prior.joint_rad / kRadPerDeg),
-                                 isMoved(estimate, spread)});
+      const std::string& name = skeleton.joints[joint].name;
+      movement.joints.push_back({name, amountOf(estimate, spread, prior.joint_rad / kRadPerDeg),
+                                 bend && bend->exposure == e && std::ranges::count(bend->joints, name) > 0});
     }
     movements.push_back(std::move(movement));
   }

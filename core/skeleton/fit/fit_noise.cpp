@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kCauses = 3;  // pick, definition, blur
 /// Prior of each variance: as many observations of the stated one.
-constexpr std::array<double, kCauses> kPriorObservations = {10, 10, 3};
+constexpr std::array<double, kCauses> kPriorObservations = {10, 4, 3};
 constexpr double kStatedBlur_m = 0.0005;
 
 using Variances = std::array<double, kCauses>;

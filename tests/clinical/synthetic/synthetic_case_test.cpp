@@ -126,7 +126,7 @@ TEST(WriteSyntheticCase, MakesACaseThatLoadsWithGeometryInItsFiles) {
     const Radiograph lateral = readRadiograph(checkedFile(c.images[1].file, folder.path()));
     EXPECT_EQ(frontal.tags.patient_id, "SYNTHETIC-1");
     EXPECT_EQ(frontal.tags.frame_of_reference_uid, lateral.tags.frame_of_reference_uid);
-    const BiplanarRig read = rigFromDicom(frontal, lateral), nominal = nominalRig(kind, options.binning);
+    const BiplanarRig read = rigFromDicom(std::array{frontal, lateral}), nominal = nominalRig(kind, options.binning);
     for (std::size_t i = 0; i < 2; ++i) {
       const Eigen::Vector3d p{0.05, 0.3, -0.1};
       EXPECT_LT((*project(read.views[i], p) - *project(nominal.views[i], p)).norm(), 1e-3);

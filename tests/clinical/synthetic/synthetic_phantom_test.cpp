@@ -48,7 +48,7 @@ TEST_F(RenderedPhantom, BeadsAreFoundWhereTheyProject) {
 
 TEST_F(RenderedPhantom, CalibratesBackToTheTrueRig) {
   const auto calibration =
-      calibrateFromBeads(phantom, {detectBeads(films[0]), detectBeads(films[1])}, rigFromDicom(films[0], films[1]));
+      calibrateFromBeads(phantom, std::array{detectBeads(films[0]), detectBeads(films[1])}, rigFromDicom(films));
   ASSERT_EQ(calibration.outcome, Outcome::Converged);
   EXPECT_LT(calibration.rms_px, 0.2);
   // Points where landmarks are: seen by the true rig, located by the calibrated one.

@@ -22,7 +22,7 @@ class EitherRig : public testing::TestWithParam<SyntheticRig> {};
 
 TEST_P(EitherRig, TagsDescribeTheNominalGeometry) {
   const auto films = filmsOf(GetParam());
-  const BiplanarRig read = rigFromDicom(films[0], films[1]), nominal = nominalRig(GetParam());
+  const BiplanarRig read = rigFromDicom(films), nominal = nominalRig(GetParam());
   EXPECT_EQ(read.calibration.method, nominal.calibration.method);
   EXPECT_TRUE(read.patient_aligned);
   for (std::size_t i = 0; i < 2; ++i)

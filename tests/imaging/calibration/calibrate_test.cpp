@@ -71,7 +71,7 @@ double worstDisagreement_px(const BiplanarRig& a, const BiplanarRig& b) {
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d p{0.2 * std::sin(1.0 * i), 0.55 * std::sin(2.3 * i), 0.25 * std::sin(3.7 * i)};
-    for (std::size_t view = 0; view < 2; ++view)
+    for (std::size_t view = 0; view < a.views.size(); ++view)
       worst = std::max(worst, (*project(a.views[view], p) - *project(b.views[view], p)).norm());
   }
   return worst;
@@ -201,10 +201,69 @@ TEST(Calibrate, FindsTheDistortionOfAnImageIntensifier) {
   BiplanarRig bent = truth();
   for (auto& view : bent.views) std::get<ConeBeam>(view.projection).k1 = 0.08;
   CalibrationOptions options;
-  options.estimate_distortion = true;
+  options.estimate_distortion = EstimatedDistortion::FirstRadial;
   const auto result = calibrateFromSightings(object, sightingsOf(object, bent, 0, 1), kSizes, options);
   ASSERT_EQ(result.outcome, Outcome::Converged);
   EXPECT_NEAR(std::get<ConeBeam>(result.rig.views[0].projection).k1, 0.08, 1e-4);
+}
+
+/// Bends all views; mild, as of a good image intensifier.
+BiplanarRig bentInFull(BiplanarRig rig) {
+  for (auto& view : rig.views) {
+    auto& c = std::get<ConeBeam>(view.projection);
+    c.k1 = 0.08, c.k2 = -0.05, c.p1 = 2e-3, c.p2 = -3e-3, c.k3 = 0.04;
+  }
+  return rig;
+}
+
+TEST(Calibrate, FindsEveryTermOfTheDistortion) {
+  const auto object = defaultCalibrationObject();
+  const BiplanarRig bent = bentInFull(truth());
+  CalibrationOptions options;
+  options.estimate_distortion = EstimatedDistortion::Full;
+  const auto result = calibrateFromSightings(object, sightingsOf(object, bent, 0, 1), kSizes, options);
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  EXPECT_LT(worstDisagreement_px(result.rig, bent), 0.01);  // exact data
+  const auto &found = std::get<ConeBeam>(result.rig.views[0].projection),
+             &made = std::get<ConeBeam>(bent.views[0].projection);
+  EXPECT_NEAR(found.k1, made.k1, 1e-3);
+  EXPECT_NEAR(found.p1, made.p1, 1e-5);
+  EXPECT_NEAR(found.p2, made.p2, 1e-5);
+}
+
+TEST(Calibrate, KeepsTheDistortionOfTheGuess) {
+  // What is known of the detector is not an unknown, and is not forgotten: exact beads give the exact views.
+  const auto object = defaultCalibrationObject();
+  const BiplanarRig bent = bentInFull(truth());
+  const auto result = calibrateFromBeads(object, detections(object, bent), bentInFull(guess()));
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  EXPECT_LT(worstDisagreement_px(result.rig, bent), 0.01);
+  EXPECT_EQ(std::get<ConeBeam>(result.rig.views[1].projection).k3, 0.04);
+}
+
+TEST(Calibrate, ThreeViewsAtOnce) {
+  const auto object = defaultCalibrationObject();
+  BiplanarRig three = truth(), start = guess();
+  for (BiplanarRig* rig : {&three, &start}) {
+    RigView oblique = rig->views[0];
+    oblique.R_CW = oblique.R_CW * rotationFromVector<double>({0, 0.7, 0});
+    oblique.role = ViewRole::Oblique;
+    oblique.exposure = 2;
+    rig->views.push_back(oblique);
+  }
+  std::vector<std::vector<DetectedBead>> seen;
+  for (const auto& view : three.views) {
+    seen.emplace_back();
+    for (const auto& s : test::shadowsOf(object, view)) seen.back().push_back({s.uv_px, 0, 1000, 0.05});
+  }
+  const auto result = calibrateFromBeads(object, seen, start);
+  ASSERT_EQ(result.outcome, Outcome::Converged);
+  ASSERT_EQ(result.rig.views.size(), 3u);
+  EXPECT_LT(worstDisagreement_px(result.rig, three), 0.001);
+  EXPECT_EQ(result.rig.views[2].role, ViewRole::Oblique);
+  EXPECT_EQ(result.rig.views[2].exposure, 2);
+  const auto two = calibrateFromBeads(object, std::array{seen[0], seen[1]}, guess());
+  EXPECT_LT(result.accuracy_mm, two.accuracy_mm);  // a third view sees the point, too
 }
 
 std::string errorOf(const std::function<void()>& action) {
@@ -264,12 +323,16 @@ TEST(ViewFromDlt, RecoversAPinholeAndItsMirror) {
 
 TEST(BeadResiduals, ByHandAndByGradientCheck) {
   const BeadProjectionResidual residual{{110, 205}, 2.0, Eigen::Matrix3d::Identity(), 1.5};
-  const double intrinsics[] = {1000, 100, 200, 0.1}, pose[] = {0, 0, 0, 0, 0, 1}, bead[] = {0.02, -0.01, 1.0};
+  const double intrinsics[] = {1000, 100, 200, 0.1, -40, 0.02, -0.03, 9}, pose[] = {0, 0, 0, 0, 0, 1},
+               bead[] = {0.02, -0.01, 1.0};
   double out[2];
   ASSERT_TRUE(residual(intrinsics, pose, bead, out));
-  const double x = 0.01, y = -0.005, k = 1000 * (1 + 0.1 * (x * x + y * y));
-  EXPECT_NEAR(out[0], (110 - (k * x + 100)) / 2, 1e-12);
-  EXPECT_NEAR(out[1], (205 - (1.5 * k * y + 200)) / 2, 1e-12);
+  // x = 0.02 / 2, y = -0.01 / 2, r^2 = 1.25e-4; Brown's polynomial by hand.
+  const double x = 0.01, y = -0.005, r2 = 1.25e-4, radial = 1 + 0.1 * r2 - 40 * r2 * r2 + 9 * r2 * r2 * r2;
+  const double bent_x = x * radial + 2 * 0.02 * x * y - 0.03 * (r2 + 2 * x * x);
+  const double bent_y = y * radial + 0.02 * (r2 + 2 * y * y) - 2 * 0.03 * x * y;
+  EXPECT_NEAR(out[0], (110 - (1000 * bent_x + 100)) / 2, 1e-12);
+  EXPECT_NEAR(out[1], (205 - (1500 * bent_y + 200)) / 2, 1e-12);
   const double behind[] = {0, 0, -3.0};
   EXPECT_FALSE(residual(intrinsics, pose, behind, out));
 

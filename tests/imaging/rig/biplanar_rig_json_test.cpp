@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/imaging/rigs.h"
+
 namespace sinew {
 namespace {
 
@@ -44,6 +46,35 @@ TEST(BiplanarRigJson, RoundTripIsExact) {
   }
 }
 
+TEST(BiplanarRigJson, HoldsAnyNumberOfViewsWithTheirRoles) {
+  BiplanarRig rig = mixedRig();
+  rig.views.push_back(rig.views[0]);
+  rig.views[0].role = ViewRole::FrontalPA;
+  rig.views[1].role = ViewRole::LateralRight;
+  rig.views[2].role = ViewRole::Oblique;
+  rig.views[2].exposure = 1;
+  const Json json = parseJson(jsonText(rigToJson(rig)), "rig.json");
+  EXPECT_EQ(rigFromJson({json, "rig.json"}), rig);
+  EXPECT_EQ(viewTitle(rig.views, 2), "Oblique");
+  rig.views[2].role = ViewRole::FrontalAP;  // a stitched pair
+  EXPECT_EQ(viewTitle(rig.views, 0), "Frontal 1");
+  EXPECT_EQ(viewTitle(rig.views, 2), "Frontal 2");
+}
+
+TEST(BiplanarRigJson, ReadsFilesFromBeforeRoles) {
+  for (const bool slot_scan : {false, true}) {
+    BiplanarRig rig = slot_scan ? test::slotScanRig() : test::coneBeamRig();
+    Json json = rigToJson(rig);
+    for (auto& view : json["views"]) {
+      view.erase("role");
+      view.erase("exposure");
+    }
+    EXPECT_EQ(rigFromJson({json, "rig.json"}), rig);  // AP and left lateral by their beams; a cone beam shot by shot
+  }
+  // The id of a geometry is what it was before roles.
+  EXPECT_EQ(geometryId(test::coneBeamRig().views), "cccacaca30c7");
+}
+
 TEST(BiplanarRigJson, RefusesGeometryThatCannotBe) {
   Json json = rigToJson(mixedRig());
   json["views"][0]["fx_px"] = -5;
@@ -59,7 +90,13 @@ TEST(BiplanarRigJson, RefusesGeometryThatCannotBe) {
 
   json = rigToJson(mixedRig());
   json["views"].push_back(json["views"][0]);
-  EXPECT_THAT(complaintAbout(json), HasSubstr("views: expected a list of 2"));
+  EXPECT_EQ(complaintAbout(json), "accepted");
+  json["views"] = Json::array({json["views"][0]});
+  EXPECT_THAT(complaintAbout(json), HasSubstr("views: expected a list of 2 to 32 views"));
+
+  json = rigToJson(mixedRig());
+  json["views"][1]["role"] = "sagittal";
+  EXPECT_THAT(complaintAbout(json), HasSubstr("views[1].role: expected one of"));
 }
 
 }  // namespace

@@ -40,9 +40,13 @@ Radiograph coneImage(const std::string& view_position, const std::string& orient
   return r;
 }
 
+BiplanarRig rigOf(const Radiograph& a, const Radiograph& b) {
+  return rigFromDicom(std::array{a, b});
+}
+
 std::string errorOf(const Radiograph& a, const Radiograph& b) {
   try {
-    rigFromDicom(a, b);
+    rigOf(a, b);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -50,7 +54,7 @@ std::string errorOf(const Radiograph& a, const Radiograph& b) {
 }
 
 TEST(RigFromDicom, SlotScanByHand) {
-  const BiplanarRig rig = rigFromDicom(slotImage("AP", "L\\F", 987), slotImage("LL", "A\\F", 918));
+  const BiplanarRig rig = rigOf(slotImage("AP", "L\\F", 987), slotImage("LL", "A\\F", 918));
   EXPECT_EQ(rig.calibration.method, "dicom_slot_scan");
   EXPECT_TRUE(rig.patient_aligned);
   EXPECT_THAT(rig.calibration.warnings, testing::IsEmpty());
@@ -81,8 +85,7 @@ TEST(RigFromDicom, EveryPairOfNamedViewsIsConsistent) {
   const Eigen::Vector3d p{0.04, -0.3, 0.11};
   for (const auto& f : frontals)
     for (const auto& l : laterals) {
-      const BiplanarRig rig =
-          rigFromDicom(coneImage(f.position, f.orientation), coneImage(l.position, l.orientation));
+      const BiplanarRig rig = rigOf(coneImage(f.position, f.orientation), coneImage(l.position, l.orientation));
       EXPECT_NEAR(rig.views[0].R_CW.determinant(), f.determinant, 1e-12) << f.position << f.orientation;
       EXPECT_NEAR(rig.views[1].R_CW.determinant(), l.determinant, 1e-12) << l.position << l.orientation;
       EXPECT_LT((rig.views[0].R_CW.row(0).transpose() - f.u_W).norm(), 1e-12);
@@ -97,7 +100,7 @@ TEST(RigFromDicom, EveryPairOfNamedViewsIsConsistent) {
 }
 
 TEST(RigFromDicom, NominalConeBeamByHand) {
-  const BiplanarRig rig = rigFromDicom(coneImage("PA", "R\\F"), coneImage("LL", "A\\F"));
+  const BiplanarRig rig = rigOf(coneImage("PA", "R\\F"), coneImage("LL", "A\\F"));
   EXPECT_EQ(rig.calibration.method, "dicom_nominal");
   EXPECT_THAT(rig.calibration.warnings, Contains(Field(&Warning::code, "uncalibrated")));
   const Eigen::Vector2d uv = *project(rig.views[0], Eigen::Vector3d{0.1, 0.2, 0.05});  // PA: the source is behind
@@ -110,7 +113,7 @@ TEST(RigFromDicom, PositionerAnglesTurnTheBeam) {
   f.tags.positioner_primary_angle_deg = 10;
   f.tags.positioner_secondary_angle_deg = 5;
   l.tags.positioner_primary_angle_deg = 95;
-  BiplanarRig rig = rigFromDicom(f, l);
+  BiplanarRig rig = rigOf(f, l);
   const double degree = M_PI / 180;
   const Eigen::Vector3d beam{std::cos(5 * degree) * std::cos(10 * degree), std::sin(5 * degree),
                              -std::cos(5 * degree) * std::sin(10 * degree)};
@@ -118,15 +121,39 @@ TEST(RigFromDicom, PositionerAnglesTurnTheBeam) {
   EXPECT_NEAR(rig.views[0].R_CW.determinant(), 1, 1e-12);
   EXPECT_GT(rig.views[0].R_CW.row(1).dot(Eigen::Vector3d{0, -1, 0}), 0.99);
   f.tags.view_position = l.tags.view_position = "";  // the angles alone say it too
-  EXPECT_LT((rigFromDicom(f, l).views[0].R_CW.row(2).transpose() - beam).norm(), 1e-12);
+  EXPECT_LT((rigOf(f, l).views[0].R_CW.row(2).transpose() - beam).norm(), 1e-12);
 
   l = coneImage("LL", "A\\F");
   l.tags.positioner_primary_angle_deg = 0;  // a fixed stand writes zero into both
-  rig = rigFromDicom(coneImage("PA", "R\\F"), l);
+  rig = rigOf(coneImage("PA", "R\\F"), l);
   EXPECT_LT((rig.views[1].R_CW.row(2).transpose() - Eigen::Vector3d{0, 0, -1}).norm(), 1e-12);
   f.tags.view_position = "PA";
-  rig = rigFromDicom(f, l);
+  rig = rigOf(f, l);
   EXPECT_THAT(rig.calibration.warnings, Contains(Field(&Warning::code, "positioner_angle_ignored")));
+}
+
+TEST(RigFromDicom, AThirdObliqueViewByItsAngle) {
+  std::array images{coneImage("AP", "L\\F"), coneImage("LL", "A\\F"), coneImage("", "AL\\F")};
+  const double angles_deg[] = {180, 90, 135};
+  for (std::size_t i = 0; i < 3; ++i) images[i].tags.positioner_primary_angle_deg = angles_deg[i];
+  const BiplanarRig rig = rigFromDicom(images);
+  ASSERT_EQ(rig.views.size(), 3u);
+  EXPECT_EQ(rig.views[0].role, ViewRole::FrontalAP);
+  EXPECT_EQ(rig.views[1].role, ViewRole::LateralLeft);
+  EXPECT_EQ(rig.views[2].role, ViewRole::Oblique);
+  EXPECT_NE(rig.views[1].exposure, rig.views[2].exposure);
+  const double half = std::sqrt(0.5);
+  EXPECT_LT((rig.views[2].R_CW.row(2).transpose() - Eigen::Vector3d{-half, 0, -half}).norm(), 1e-12);
+  EXPECT_LT((rig.views[2].R_CW.row(0).transpose() - Eigen::Vector3d{half, 0, -half}).norm(), 1e-12);
+  const Eigen::Vector3d p{0.04, -0.3, 0.11};
+  const auto point = triangulate(rig, std::vector{test::see(rig, 0, p), test::see(rig, 2, p)});
+  ASSERT_TRUE(point);
+  EXPECT_LT((point->p_WL - p).norm(), 1e-10);
+}
+
+TEST(RigFromDicom, StitchedPartsHaveNoNominalGeometry) {
+  const std::array images{coneImage("AP", "L\\F"), coneImage("LL", "A\\F"), coneImage("AP", "L\\F")};
+  EXPECT_THROW(rigFromDicom(images), InputError);
 }
 
 TEST(RigFromDicom, SlotScanSpacingFromTheDetector) {
@@ -136,7 +163,7 @@ TEST(RigFromDicom, SlotScanSpacingFromTheDetector) {
     r->tags.imager_column_mm = 0.254;
     r->tags.imager_row_mm = 0.179;
   }
-  const BiplanarRig rig = rigFromDicom(f, l);
+  const BiplanarRig rig = rigOf(f, l);
   EXPECT_NEAR(std::get<SlotScan>(rig.views[0].projection).column_spacing_m, 0.254e-3 * 987 / 1300, 1e-12);
   EXPECT_NEAR(std::get<SlotScan>(rig.views[0].projection).row_spacing_m, 0.179e-3, 1e-12);
   EXPECT_THAT(rig.calibration.warnings, Contains(Field(&Warning::code, "slot_scan_spacing_from_detector")));
@@ -154,7 +181,7 @@ TEST(RigFromDicom, RefusesPairsThatAreNone) {
   EXPECT_THAT(errorOf(f, other), HasSubstr("row spacing"));
   other = l;
   other.tags.patient_id = "B";
-  EXPECT_THAT(errorOf(f, other), HasSubstr("patient: expected the same in both images, found two different ones"));
+  EXPECT_THAT(errorOf(f, other), HasSubstr("patient: expected the same in all images, found different ones"));
   other = l;
   other.spacing.reset();
   EXPECT_THAT(errorOf(f, other), HasSubstr("image 2: Pixel Spacing, or Imager Pixel Spacing"));

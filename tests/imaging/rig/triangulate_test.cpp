@@ -60,7 +60,7 @@ TEST_P(EveryRig, StatesTheCovarianceThatRepeatedPicksHave) {
 TEST_P(EveryRig, EpipolarLineOfAPickPassesThroughItsPartner) {
   const BiplanarRig rig = GetParam();
   for (int view : {0, 1}) {
-    const auto line = epipolarLine(rig, view, see(rig, view, kKnee).uv_px);
+    const auto line = epipolarLine(rig, view, see(rig, view, kKnee).uv_px, 1 - view);
     const Eigen::Vector2d partner = see(rig, 1 - view, kKnee).uv_px;
     ASSERT_EQ(line.size(), 2u);  // straight
     const Eigen::Vector2d along = (line[1] - line[0]).normalized(), off = partner - line[0];
@@ -71,7 +71,7 @@ TEST_P(EveryRig, EpipolarLineOfAPickPassesThroughItsPartner) {
 
 TEST(Triangulate, SlotScanPartnerLiesInTheSameRow) {
   const BiplanarRig rig = test::slotScanRig();
-  for (const auto& p : epipolarLine(rig, 0, {700, 3210.5})) EXPECT_NEAR(p.y(), 3210.5, 1e-9);
+  for (const auto& p : epipolarLine(rig, 0, {700, 3210.5}, 1)) EXPECT_NEAR(p.y(), 3210.5, 1e-9);
 }
 
 TEST(Triangulate, SlotScanAgreesWithTheClosedForm) {
