@@ -1,5 +1,7 @@
 #include "clinical/exam/physical_exam_json.h"
 
+#include "core/date_json.h"
+
 namespace sinew {
 namespace {
 
@@ -84,7 +86,8 @@ Json examToJson(const PhysicalExam& exam) {
 PhysicalExam examFromJson(const JsonReader& json) {
   json.expectFormat("sinew.exam", 1);
   json.allowOnly({"format", "version", "examiner", "date", "entries"});
-  PhysicalExam exam{.examiner = optionalText(json, "examiner"), .date = optionalText(json, "date"), .entries = {}};
+  PhysicalExam exam{.examiner = optionalText(json, "examiner"), .date = {}, .entries = {}};
+  if (const auto date = json.find("date")) exam.date = dateFromJson(*date);
   for (const auto& entry : json["entries"].items()) exam.entries.push_back(entryFromJson(entry));
   return exam;
 }

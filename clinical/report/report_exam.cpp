@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "clinical/report/judgement.h"
 #include "clinical/report/report_tables.h"
 
 namespace sinew {
@@ -30,6 +31,13 @@ std::string measuredText(const ExamComparison& comparison, const PhysicalExam& e
   if (comparison.measured_deg) return numberText(*comparison.measured_deg);
   const auto* entry = entryOf(exam, comparison);
   return entry && !entry->note.empty() ? std::string{kNotMeasured} + ": " + entry->note : kNotMeasured;
+}
+
+/// Marked like a bone: beyond 2 SD of the norm, and beyond the measurement error of one examiner.
+std::string judgement(const ExamComparison& comparison, const ExamTest& test) {
+  if (!comparison.measured_deg) return {};
+  return markOf(
+      judgeMeasured(*comparison.measured_deg, test.measurement_sd_deg, test.norm_mean_deg, test.norm_sd_deg));
 }
 
 std::string normText(const ExamTest& test) {
@@ -113,7 +121,8 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamPr
   std::set<std::string> noted;
   for (const auto& comparison : inOrder(fit, protocol)) {
     const ExamTest& test = protocol.test(comparison.test);
-    table.rows.push_back({test.title, sideText(comparison.side), measuredText(comparison, exam), normText(test),
+    table.rows.push_back({test.title, sideText(comparison.side),
+                          measuredText(comparison, exam) + judgement(comparison, test), normText(test),
                           numberText(comparison.simulated_before_deg), numberText(comparison.simulated_after_deg),
                           comparison.measured_deg ? signedText(comparison.residual_deg, 1) : kNotMeasured,
                           numberText(comparison.threshold_Nm), limitText(comparison)});
@@ -124,7 +133,9 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamPr
     table.sources.push_back(note);
   }
   table.footnote =
-      "Residual = measured - model after. Stop at = passive moment at which the examiner is taken to stop, scaled "
+      "\u25B2 \u25BC more than 2 SD above or below the norm, beyond the measurement error. Residual = measured - "
+      "model "
+      "after. Stop at = passive moment at which the examiner is taken to stop, scaled "
       "with "
       "body mass. \u2021 norm not yet verified at its source. Conventions and sources: annex.";
   return table;
@@ -143,11 +154,11 @@ ReportTable muscleTable(const ExamFit& fit, const ExamProtocol& protocol) {
 
   ReportTable table;
   table.title = "Muscle lengths found from the examination";
-  table.columns = {"Muscle group", "Length factor left", "Length factor right",
-                   "Force factor", "Limits, left side",  "Limits, right side"};
+  table.columns = {"Muscle group", "Length factor right", "Length factor left",
+                   "Force factor", "Limits, right side",  "Limits, left side"};
   for (const auto& group : protocol.groups)
-    table.rows.push_back({group.title, factorText(fit, protocol, group, 'l'), factorText(fit, protocol, group, 'r'),
-                          kNotMeasured, limited(group, 'l'), limited(group, 'r')});
+    table.rows.push_back({group.title, factorText(fit, protocol, group, 'r'), factorText(fit, protocol, group, 'l'),
+                          kNotMeasured, limited(group, 'r'), limited(group, 'l')});
   table.footnote =
       "Length factor: fibre and tendon length relative to what this skeleton calls for; below 1 short, above 1 long. "
       "not "
@@ -177,14 +188,14 @@ ReportTable protocolTable(const ExamFit& fit, const ExamProtocol& protocol) {
 ReportTable lengthFactorTable(const ExamFit& fit) {
   ReportTable table;
   table.title = "Length factor of every changed musculotendon unit";
-  table.columns = {"Unit", "Left", "Right"};
+  table.columns = {"Unit", "Right", "Left"};
   std::set<std::string> units;
   for (const auto& [unit, factor] : fit.length_factors) units.insert(std::string{withoutSide(unit)});
   const auto factorOf = [&](const std::string& unit) {
     const auto it = fit.length_factors.find(unit);
     return it == fit.length_factors.end() ? std::string{"unchanged"} : numberText(it->second, 3);
   };
-  for (const auto& unit : units) table.rows.push_back({readable(unit), factorOf(unit + "_l"), factorOf(unit + "_r")});
+  for (const auto& unit : units) table.rows.push_back({readable(unit), factorOf(unit + "_r"), factorOf(unit + "_l")});
   if (table.rows.empty()) table.rows.push_back({"none changed", "unchanged", "unchanged"});
   table.footnote = "Fibre and tendon are scaled together.";
   return table;

@@ -16,6 +16,7 @@
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/curve_plot.h"
 #include "app/widgets/controls/theme.h"
+#include "clinical/case/patient_edit.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -107,7 +108,8 @@ ExamPage::ExamPage(Workspace& workspace)
   });
   connect(date_, &QLineEdit::editingFinished, this, [this] {
     this->workspace().document().edit(tr("Set date of the examination"),
-                                      [&](Case& c) { c.exam.date = date_->text().trimmed().toStdString(); });
+                                      [&](Case& c) { setExamDate(c, date_->text().toStdString(), dateToday()); });
+    refresh();  // a refused date shows the truth again
   });
 
   auto* side = new Card{tr("Passive moment of the simulated test")};
