@@ -52,7 +52,7 @@ BiplanarRig RandomCase::rig() {
 }
 
 PhysicalExam RandomCase::exam() {
-  PhysicalExam exam{text(), text(), {}};
+  PhysicalExam exam{text(), coin() ? "2024-02-29" : "", {}};
   for (int i = below(5); i > 0; --i) {
     ExamEntry entry{
         .test = "test_" + std::to_string(i), .side = side(), .measured_deg = {}, .note = text(), .threshold_Nm = {}};

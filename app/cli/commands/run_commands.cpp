@@ -50,7 +50,7 @@ void addRun(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const RunRequest request{stageOption(o->from), stageOption(o->to)};
-      Case c = loadCase(o->folder);
+      Case c;
       if (o->swap) {
         const RunReport report = swapSides(c, o->folder, session);
         if (report.refused || report.status != ExitStatus::Done)
@@ -81,21 +81,13 @@ void addReport(Commands& commands) {
         for (const auto& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
         throw InputError{{o->folder.string(), "report", "every stage done", all}};
       }
-      RunRequest request{Stage::Report, Stage::Report};
-      const RunReport report = runAndStore(c, o->folder, request, session);
+      // What is done is copied, not drawn again: the folder may be one that can only be read.
+      const RunReport report = runAndStore(c, o->folder, {{}, Stage::Report}, session);
       if (report.status == ExitStatus::Done && !o->output.empty())
         writeFileAtomically(o->output, readFile(checkedFile(*c.report, o->folder)));
       return finishRun(c, o->folder, report, "sinew.report", session);
     };
   });
-}
-
-/// Only an empty folder or an earlier demo is written into.
-void refuseForeignFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error) || std::filesystem::is_empty(folder, error)) return;
-  if (std::filesystem::exists(folder / "case.json", error) && loadCase(folder).truth) return;
-  throw InputError{{folder.string(), "", "an empty folder or an earlier demo", "other files, which are kept"}};
 }
 
 void addDemo(Commands& commands) {
@@ -127,7 +119,7 @@ void addDemo(Commands& commands) {
             {"sinew demo", "--rig", "cone-beam or slot-scan", "'" + o->rig + "'" + didYouMean(o->rig, rigs)}};
       if (o->views == 3 && o->rig == rigs[1])
         throw InputError{{"sinew demo", "--views", "2 for a slot scan, which makes both at once", "3"}};
-      refuseForeignFolder(o->folder);
+      expectDemoFolder(o->folder);
       SyntheticOptions options;
       options.resource_dir = session.resourceDir();
       options.seed = o->seed;
