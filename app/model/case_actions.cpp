@@ -72,7 +72,7 @@ const ExamEntry* findExamEntry(const Case& c, std::string_view test, char side) 
   return found == entries.end() ? nullptr : &*found;
 }
 
-void setMeasured(Case& c, const ExamProtocol& protocol, const std::string& test, char side,
+void setMeasured(Case& c, const ClinicalTests& protocol, const std::string& test, char side,
                  std::optional<double> measured_deg) {
   entryOf(c, test, side).measured_deg = measured_deg;
   dropEmptyEntries(c);

@@ -82,19 +82,70 @@ Json figuresToJson(const std::vector<BoneFigure>& figures) {
                     {"value", numberOrNull(f.value)},
                     {"lower95", numberOrNull(f.lower95)},
                     {"upper95", numberOrNull(f.upper95)},
-                    {"determined", f.determined}});
+                    {"determined", f.determined},
+                    {"source", f.triangulated ? "triangulated" : "fitted"},
+                    {"other", numberOrNull(f.other)},
+                    {"other_lower95", numberOrNull(f.other_lower95)},
+                    {"other_upper95", numberOrNull(f.other_upper95)}});
   return list;
 }
 
 std::vector<BoneFigure> figuresFromJson(const JsonReader& json) {
   std::vector<BoneFigure> figures;
   for (const auto& f : json.items()) {
-    f.allowOnly({"quantity", "side", "unit", "value", "lower95", "upper95", "determined"});
+    f.allowOnly({"quantity", "side", "unit", "value", "lower95", "upper95", "determined", "source", "other",
+                 "other_lower95", "other_upper95"});
+    // Older files know the fitted figure alone.
+    const auto optional = [&](const char* name) {
+      const auto number = f.find(name);
+      return number ? number->number() : kNoFigure;
+    };
+    const auto source = f.find("source");
     figures.push_back({f["quantity"].text(), f["side"].oneOf({"r", "l", ""}), f["unit"].text(),
                        f["value"].numberOrNaN(), f["lower95"].numberOrNaN(), f["upper95"].numberOrNaN(),
-                       f["determined"].boolean()});
+                       f["determined"].boolean(),
+                       source && source->oneOf({"fitted", "triangulated"}) == "triangulated", optional("other"),
+                       optional("other_lower95"), optional("other_upper95")});
   }
   return figures;
+}
+
+Json outsideToJson(const std::vector<OutsideBone>& bones) {
+  Json list = Json::array();
+  for (const auto& b : bones)
+    list.push_back({{"bone", b.segment},
+                    {"misfit", numberOrNull(b.misfit)},
+                    {"landmark", b.landmark},
+                    {"distance_mm", numberOrNull(b.distance_mm)}});
+  return list;
+}
+
+std::vector<OutsideBone> outsideFromJson(const JsonReader& json) {
+  std::vector<OutsideBone> bones;
+  for (const auto& b : json.items()) {
+    b.allowOnly({"bone", "misfit", "landmark", "distance_mm"});
+    bones.push_back(
+        {b["bone"].text(), b["misfit"].numberOrNaN(), b["landmark"].text(), b["distance_mm"].numberOrNaN()});
+  }
+  return bones;
+}
+
+Json adviceToJson(const std::vector<FigureAdvice>& advice) {
+  Json list = Json::array();
+  for (const auto& a : advice)
+    list.push_back({{"quantity", a.quantity}, {"side", a.side}, {"landmarks", a.landmarks}, {"enough", a.enough}});
+  return list;
+}
+
+std::vector<FigureAdvice> adviceFromJson(const JsonReader& json) {
+  std::vector<FigureAdvice> advice;
+  for (const auto& a : json.items()) {
+    a.allowOnly({"quantity", "side", "landmarks", "enough"});
+    FigureAdvice one{a["quantity"].text(), a["side"].oneOf({"r", "l", ""}), {}, a["enough"].boolean()};
+    for (const auto& landmark : a["landmarks"].items()) one.landmarks.push_back(landmark.text());
+    advice.push_back(std::move(one));
+  }
+  return advice;
 }
 
 }  // namespace
@@ -116,6 +167,49 @@ Triangulation triangulationFromJson(const JsonReader& json) {
   return landmarks;
 }
 
+/// An angle or a distance with its interval, in the unit that the key names.
+Json amountToJson(const ExposureMovement::Amount& amount) {
+  return {numberOrNull(amount.value), numberOrNull(amount.lower95), numberOrNull(amount.upper95)};
+}
+
+ExposureMovement::Amount amountFromJson(const JsonReader& json) {
+  const auto parts = json.items(3);
+  return {parts[0].numberOrNaN(), parts[1].numberOrNaN(), parts[2].numberOrNaN()};
+}
+
+Json movementsToJson(const std::vector<ExposureMovement>& movements) {
+  Json list = Json::array();
+  for (const auto& m : movements) {
+    Json joints = Json::array();
+    for (const auto& j : m.joints)
+      joints.push_back({{"joint", j.joint}, {"turn_deg", amountToJson(j.turn_deg)}, {"moved", j.moved}});
+    list.push_back({{"exposure", m.exposure},
+                    {"turn_deg", amountToJson(m.turn_deg)},
+                    {"sway_mm", amountToJson(m.sway_mm)},
+                    {"moved", m.moved},
+                    {"joints", joints}});
+  }
+  return list;
+}
+
+std::vector<ExposureMovement> movementsFromJson(const JsonReader& json) {
+  std::vector<ExposureMovement> movements;
+  for (const auto& m : json.items()) {
+    m.allowOnly({"exposure", "turn_deg", "sway_mm", "moved", "joints"});
+    ExposureMovement movement{m["exposure"].integer(0, 1000),
+                              amountFromJson(m["turn_deg"]),
+                              amountFromJson(m["sway_mm"]),
+                              m["moved"].boolean(),
+                              {}};
+    for (const auto& j : m["joints"].items()) {
+      j.allowOnly({"joint", "turn_deg", "moved"});
+      movement.joints.push_back({j["joint"].text(), amountFromJson(j["turn_deg"]), j["moved"].boolean()});
+    }
+    movements.push_back(movement);
+  }
+  return movements;
+}
+
 Json skeletonFitToJson(const SkeletonFit& fit) {
   Json residuals = Json::array();
   for (const auto& r : fit.residuals)
@@ -128,6 +222,13 @@ Json skeletonFitToJson(const SkeletonFit& fit) {
           {"rms_px", numberOrNull(fit.rms_px)},
           {"warnings", warningsToJson(fit.warnings)},
           {"figures", figuresToJson(fit.figures)},
+          {"outside_model", outsideToJson(fit.outside)},
+          {"advice", adviceToJson(fit.advice)},
+          {"pick_scale",
+           {{"pick", fit.pick_scale.pick},
+            {"definition", fit.pick_scale.definition},
+            {"blur_mm", fit.pick_scale.blur_mm}}},
+          {"movements", movementsToJson(fit.movements)},
           {"undetermined", fit.undetermined},
           {"shape", shapeToJson(fit.shape)},
           {"posture_m_rad", postureToJson(fit.posture)},
@@ -135,12 +236,20 @@ Json skeletonFitToJson(const SkeletonFit& fit) {
 }
 
 SkeletonFit skeletonFitFromJson(const JsonReader& json) {
-  json.allowOnly({"outcome", "rms_px", "warnings", "figures", "undetermined", "shape", "posture_m_rad", "residuals"});
+  json.allowOnly({"outcome", "rms_px", "warnings", "figures", "pick_scale", "movements", "undetermined", "shape",
+                  "posture_m_rad", "residuals", "outside_model", "advice"});
   SkeletonFit fit;
   fit.outcome = outcomeFromJson(json["outcome"]);
   fit.rms_px = json["rms_px"].numberOrNaN();
   fit.warnings = warningsFromJson(json["warnings"]);
   fit.figures = figuresFromJson(json["figures"]);
+  if (const auto outside = json.find("outside_model")) fit.outside = outsideFromJson(*outside);
+  if (const auto advice = json.find("advice")) fit.advice = adviceFromJson(*advice);
+  if (const auto scale = json.find("pick_scale")) {
+    scale->allowOnly({"pick", "definition", "blur_mm"});
+    fit.pick_scale = {(*scale)["pick"].number(), (*scale)["definition"].number(), (*scale)["blur_mm"].number()};
+  }
+  if (const auto movements = json.find("movements")) fit.movements = movementsFromJson(*movements);
   for (const auto& name : json["undetermined"].items()) fit.undetermined.push_back(name.text());
   fit.shape = shapeFromJson(json["shape"]);
   fit.posture = postureFromJson(json["posture_m_rad"]);

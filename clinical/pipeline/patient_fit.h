@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/skeleton/fit/side_exchange.h"
@@ -13,6 +14,11 @@ namespace sinew {
 // of exposures and errors of the geometry, and what the protocol knows of how sharply landmarks are defined.
 
 std::vector<FitView> fitViewsOf(const BiplanarRig& rig);
+/// How exactly a person clicks [px]: the protocol's noise of a pick of this landmark (that of its first one for a
+/// name that it does not know) in the view's scale where the beams cross, which is where the patient stands. Without
+/// a rig, or a view of it, by the detector's pixels, `pixel_mm`.
+double pickSigma_px(const std::filesystem::path& resource_dir, const std::string& landmark, const BiplanarRig* rig,
+                    int view, double pixel_mm);
 std::vector<LandmarkObservation> observationsOf(std::span<const Sighting> sightings);
 
 /// @throws InputError as fitSkeleton().

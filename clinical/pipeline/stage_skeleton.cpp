@@ -68,7 +68,7 @@ std::string resultLine(const Case& c) {
 constinit const StageRow kSkeletonRow{.stage = Stage::Skeleton,
                                       .name = "skeleton",
                                       .title = "Skeleton",
-                                      .revision = 1,
+                                      .revision = 2,
                                       .resources = kResources,
                                       .inputs = inputs,
                                       .has_result = hasResult,

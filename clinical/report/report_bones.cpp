@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "clinical/report/figure_texts.h"
 #include "clinical/report/report_tables.h"
 
 namespace sinew {
@@ -29,7 +30,7 @@ std::string valueText(const BoneFigure* f) {
   if (!f->determined) return kUndetermined;
   const int decimals = decimalsOf(f->unit);
   return numberText(f->value, decimals) + " (" + numberText(f->lower95, decimals) + " to " +
-         numberText(f->upper95, decimals) + ")";
+         numberText(f->upper95, decimals) + ")" + (f->triangulated ? " \u00A7" : "");
 }
 
 double sdOf(const BoneFigure& f) {
@@ -96,6 +97,11 @@ ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const Norm
       "beyond the "
       "measurement error. \u2020 norm by another definition: no z-score. \u2021 norm not yet verified at its source. "
       "undetermined: the images do not show it.";
+  const auto from_picks = triangulatedTexts(fit.figures, norms);
+  if (!from_picks.empty())
+    table.footnote +=
+        " \u00A7 a bone is outside the model of the software: the figure is that of the picks themselves.";
+  for (const auto& text : from_picks) table.footnote += " " + text + ".";
   return table;
 }
 
@@ -112,7 +118,8 @@ ReportTable definitionTable(const SkeletonFit& fit, const NormTable& norms) {
   }
   table.footnote =
       "All figures come from the skeleton fitted to the landmarks in both views, in the posture of the radiographs; "
-      "95 % intervals from the covariance of that fit.";
+      "95 % intervals from the covariance of that fit. Those marked \u00A7 come from the landmarks themselves "
+      "(triangulated), because no bone of the model follows them.";
   return table;
 }
 

@@ -113,7 +113,7 @@ ShapeParameters drawPatientShape(const std::vector<ShapePrior>& priors, RandomSo
   std::map<std::string, double> common;
   for (const auto& prior : priors) {
     const auto at = std::find(names.begin(), names.end(), prior.parameter);
-    if (at == names.end()) continue;
+    if (at == names.end() || prior.deformity) continue;
     const auto [entry, is_new] = common.try_emplace(withoutSideOf(prior.parameter), 0.0);
     if (is_new) entry->second = random.truncatedNormal();
     const bool sided = entry->first != prior.parameter;

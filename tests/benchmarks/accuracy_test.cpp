@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <cmath>
+
 #include "tests/benchmarks/accuracy_study.h"
+#include "tests/benchmarks/deformity_study.h"
 #include "tests/support/resources.h"
 #include "tests/support/synthetic_views.h"
 
@@ -51,6 +55,46 @@ TEST_P(Accuracy, OneMillimetreOfPickingNoiseStaysWithinTheRequiredSpread) {
 INSTANTIATE_TEST_SUITE_P(Rigs, Accuracy,
                          testing::Values(Rig{"cone_beam", test::coneBeamPair}, Rig{"slot_scan", test::slotScanPair}),
                          [](const auto& tested) { return std::string{tested.param.name}; });
+
+// ---- bones outside the population
+// -----------------------------------------------------------------------------------
+
+class Deformed : public testing::TestWithParam<std::size_t> {};
+
+bool isAxis(const std::string& quantity) {
+  return quantity == "hka" || quantity == "knee_flexion" || quantity == "pelvic_obliquity";
+}
+
+TEST_P(Deformed, LengthsAndAxesHaveNoBias) {
+  const Deformity& deformity = deformities()[GetParam()];
+  constexpr int kDraws = 8;
+  for (const double amount : {deformity.amounts.back(), deformity.amounts.front()}) {
+    const DeformityStudy study =
+        studyDeformity(test::resourceDir(), test::coneBeamPair(), deformity, amount, 1, kDraws);
+    EXPECT_EQ(study.not_converged, 0) << amount;
+    double covered = 0, all = 0;
+    for (const auto& row : study.rows) {
+      if (row.determined < 2) continue;
+      // Required are 1 mm and 0.5 deg; a mean of 8 draws has a standard error of its own.
+      const double chance = 3 * row.sd / std::sqrt(row.determined);
+      if (row.unit == "mm") EXPECT_LT(std::abs(row.bias), 1 + chance) << amount << " " << row.quantity;
+      if (isAxis(row.quantity)) EXPECT_LT(std::abs(row.bias), 0.5 + chance) << amount << " " << row.quantity;
+      covered += row.coverage * row.determined, all += row.determined;
+    }
+    EXPECT_GT(covered / all, 0.85) << amount;         // 95 % less three SD of some 50 independent ones
+    EXPECT_LE(study.left_out, kDraws / 4) << amount;  // every pick is true
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bones, Deformed, testing::Range(std::size_t{0}, deformities().size()),
+                         [](const auto& tested) {
+                           std::string name;
+                           for (const char c : deformities()[tested.param].name) {
+                             if (c == ',' || c == ':') break;
+                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+                           }
+                           return name + std::to_string(tested.param);
+                         });
 
 }  // namespace
 }  // namespace sinew

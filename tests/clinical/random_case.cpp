@@ -60,6 +60,7 @@ PhysicalExam RandomCase::exam() {
     if (coin()) entry.threshold_Nm = number(1, 80);
     exam.entries.push_back(entry);
   }
+  exam.leave_in_norm = coin();
   return exam;
 }
 
@@ -72,7 +73,8 @@ std::map<std::string, double> RandomCase::factors() {
 std::vector<BoneFigure> RandomCase::figures() {
   std::vector<BoneFigure> list;
   for (int i = below(4); i > 0; --i)
-    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin()});
+    list.push_back({"femur_length", coin() ? "r" : "", "mm", numberOrNaN(), numberOrNaN(), numberOrNaN(), coin(),
+                    coin(), numberOrNaN(), numberOrNaN(), numberOrNaN()});
   return list;
 }
 
@@ -101,6 +103,9 @@ SkeletonFit RandomCase::skeletonFit() {
   fit.rms_px = numberOrNaN();
   fit.figures = figures();
   if (coin()) fit.undetermined = {"pelvis.depth", text()};
+  if (coin())
+    fit.outside = {{"femur_r", number(1, 9), text(), number(0, 30)}, {"pelvis", number(1, 2), "asis_l", 3.5}};
+  if (coin()) fit.advice = {{"pelvic_tilt", "", {"sacral_endplate_center", text()}, coin()}, {"hka", "l", {}, false}};
   fit.warnings = warnings();
   return fit;
 }
@@ -108,7 +113,9 @@ SkeletonFit RandomCase::skeletonFit() {
 ExamFit RandomCase::examFit() {
   ExamFit fit{.outcome = Outcome::Converged,
               .tests = {},
+              .groups = {},
               .length_factors = factors(),
+              .left_in_norm = coin(),
               .seconds = number(0, 9),
               .warnings = warnings()};
   for (int i = below(4); i > 0; --i) {
@@ -119,12 +126,19 @@ ExamFit RandomCase::examFit() {
     c.simulated_before_deg = numberOrNaN();
     c.simulated_after_deg = numberOrNaN();
     c.residual_deg = numberOrNaN();
+    if (coin()) c.reason = text();
+    c.norm_mean_deg = numberOrNaN();
+    c.norm_sd_deg = numberOrNaN();
     c.threshold_Nm = number(1, 80);
     c.stopped_by_joint = coin();
     if (coin()) c.limiting_muscles = {"semimembranosus_r", text()};
+    if (coin()) c.limited_by = {"capsule and ligaments", text()};
     if (coin()) c.changed = {{"semimembranosus_r", number(0.6, 1.4)}};
     fit.tests.push_back(c);
   }
+  for (int i = below(3); i > 0; --i)
+    fit.groups.push_back(
+        {text(), side(), coin(), number(0.6, 1.4), numberOrNaN(), numberOrNaN(), coin(), number(0.1, 2)});
   return fit;
 }
 

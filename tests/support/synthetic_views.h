@@ -48,13 +48,11 @@ inline std::vector<View> slotScanPair() {
   return views;
 }
 
-/// Where the landmarks of a body appear in the views, with Gaussian picking noise of `noise_mm` in the plane of the
+/// Where the landmarks of `body` appear in the views, with Gaussian picking noise of `noise_mm` in the plane of the
 /// body. The stated sigma is that noise, or 0.05 px if there is none.
-inline std::vector<LandmarkObservation> observe(const Skeleton& reference, const ShapeParameters& shape,
-                                                const Posture& posture, std::span<const View> views,
-                                                std::span<const std::string> landmarks, double noise_mm,
-                                                std::mt19937_64& random) {
-  const Skeleton body = deformedSkeleton(reference, shape);
+inline std::vector<LandmarkObservation> observe(const Skeleton& body, const Posture& posture,
+                                                std::span<const View> views, std::span<const std::string> landmarks,
+                                                double noise_mm, std::mt19937_64& random) {
   const auto X_WB = segmentPoses(body, posture);
   std::normal_distribution<double> normal;
   std::vector<LandmarkObservation> observations;
@@ -69,6 +67,13 @@ inline std::vector<LandmarkObservation> observe(const Skeleton& reference, const
     }
   }
   return observations;
+}
+/// The same of the reference's body of this shape.
+inline std::vector<LandmarkObservation> observe(const Skeleton& reference, const ShapeParameters& shape,
+                                                const Posture& posture, std::span<const View> views,
+                                                std::span<const std::string> landmarks, double noise_mm,
+                                                std::mt19937_64& random) {
+  return observe(deformedSkeleton(reference, shape), posture, views, landmarks, noise_mm, random);
 }
 
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include "clinical/case/case_io.h"
 #include "clinical/exam/physical_exam.h"
 #include "core/file.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_tests.h"
 #include "imaging/radiograph/radiograph.h"
 
 namespace sinew {
@@ -101,7 +101,7 @@ Case makeCase(const NewOptions& o, Session& session) {
   if (!o.sightings.empty()) c.sightings = loadSightings(o.sightings);
   if (!o.exam.empty()) {
     c.exam = loadExam(o.exam);
-    session.warn(checkExam(c.exam, loadExamProtocol(session.resourceDir())));
+    session.warn(checkExam(c.exam, loadClinicalTests(session.resourceDir())));
   }
   caseFromJson(caseToJson(c), "sinew new");  // figures out of range are refused before anything is written
   for (std::size_t i = 0; i < files.size(); ++i)

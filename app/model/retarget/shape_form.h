@@ -15,17 +15,17 @@ struct ShapeField {
   /// Places in toVector(): right, left; of the midline the first alone, the second is -1.
   std::array<int, 2> place{-1, -1};
   bool isSided() const { return place[1] >= 0; }
-  bool isAngle() const;
+  ShapeUnit unit() const;
 };
 
-/// All parameters, part by part as a person looks for them: trunk, pelvis, neck, head, thigh, shank, foot, arm, ...
+/// All parameters, part by part as a person looks for them: trunk, pelvis, hip, neck, head, thigh, shank, foot, ...
 const std::vector<ShapeField>& shapeFields();
 
 QString partTitle(const std::string& part);     ///< "Femur"
 QString fieldTitle(const ShapeField& field);    ///< "Neck-shaft angle"
 QString fieldMeaning(const ShapeField& field);  ///< a sentence for the tool tip, units and sign included
 
-/// What is shown: a ratio, or degrees.
+/// What is shown: a ratio, degrees, or millimetres.
 double shownValue(const ShapeParameters& shape, const ShapeField& field, int side);
 /// With `linked` both sides. A value that no body can have is answered by validate(), not here.
 void setShownValue(ShapeParameters& shape, const ShapeField& field, int side, bool linked, double shown);

@@ -14,10 +14,10 @@
 namespace sinew {
 namespace {
 constexpr double kPerTurn = 1000;  // slider steps for a factor of e
-constexpr double kPerDegree = 10;
+constexpr double kPerUnit = 10;    // degree or millimetre
 }  // namespace
 
-ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent}, is_angle_{look.is_angle} {
+ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent}, unit_{look.unit} {
   title_ = makeLabel(look.title, "");
   title_->setFixedWidth(84);
   title_->setToolTip(look.tip);
@@ -33,13 +33,14 @@ ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent},
   field_->setAccessibleName(look.spoken);
   field_->setToolTip(look.tip);
   field_->setKeyboardTracking(false);
-  field_->setDecimals(is_angle_ ? 1 : 2);
-  field_->setSingleStep(is_angle_ ? 1 : 0.05);
+  const bool ratio = unit_ == ShapeUnit::Ratio;
+  field_->setDecimals(ratio ? 2 : 1);
+  field_->setSingleStep(ratio ? 0.05 : 1);
   field_->setRange(look.typed_low, look.typed_high);
-  if (is_angle_)
-    field_->setSuffix(QStringLiteral("°"));
-  else
+  if (ratio)
     field_->setPrefix(QStringLiteral("× "));
+  else
+    field_->setSuffix(unit_ == ShapeUnit::Angle ? QStringLiteral("°") : QStringLiteral(" mm"));
   field_->setFixedWidth(86);
   auto* row = new QHBoxLayout{this};
   row->setContentsMargins(0, 0, 0, 0);
@@ -47,7 +48,7 @@ ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent},
   row->addWidget(title_);
   row->addWidget(slider_, 1);
   row->addWidget(field_);
-  value_ = is_angle_ ? 0 : 1;
+  value_ = ratio ? 1 : 0;
   show();
 
   connect(slider_, &QAbstractSlider::valueChanged, this, [this](int position) {
@@ -73,11 +74,11 @@ ParameterRow::ParameterRow(const Look& look, QWidget* parent) : QWidget{parent},
 }
 
 int ParameterRow::toSlider(double value) const {
-  return int(std::lround(is_angle_ ? kPerDegree * value : kPerTurn * std::log(value)));
+  return int(std::lround(unit_ == ShapeUnit::Ratio ? kPerTurn * std::log(value) : kPerUnit * value));
 }
 
 double ParameterRow::fromSlider(int position) const {
-  if (is_angle_) return position / kPerDegree;
+  if (unit_ != ShapeUnit::Ratio) return position / kPerUnit;
   return std::round(100 * std::exp(position / kPerTurn)) / 100;  // hundredths, as the field shows
 }
 

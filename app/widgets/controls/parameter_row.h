@@ -1,6 +1,8 @@
 #pragma once
 #include <QWidget>
 
+#include "core/skeleton/shape/shape.h"
+
 class QDoubleSpinBox;
 class QLabel;
 
@@ -8,8 +10,8 @@ namespace sinew {
 
 class RangeSlider;
 
-/// One number with a slider and a field: a ratio on a logarithmic slider, or an angle. A drag is told apart from what
-/// is meant to stay.
+/// One number with a slider and a field: a ratio on a logarithmic slider, an angle, or a length. A drag is told apart
+/// from what is meant to stay.
 class ParameterRow : public QWidget {
   Q_OBJECT
  public:
@@ -18,7 +20,7 @@ class ParameterRow : public QWidget {
     QString title;   ///< shown before the slider
     QString spoken;  ///< accessible name
     QString tip;
-    bool is_angle = false;
+    ShapeUnit unit = ShapeUnit::Ratio;  ///< shown as ×, ° or mm
     double slider_low = 0.4, slider_high = 3, typed_low = 0.2, typed_high = 4;
   };
   explicit ParameterRow(const Look& look, QWidget* parent = nullptr);
@@ -36,7 +38,7 @@ class ParameterRow : public QWidget {
   double fromSlider(int position) const;
   void show();
 
-  bool is_angle_;
+  ShapeUnit unit_;
   double value_ = 0;
   bool dragging_ = false;
   QLabel* title_;

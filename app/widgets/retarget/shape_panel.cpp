@@ -72,7 +72,7 @@ void ShapePanel::addRow(const ShapeField& field, int side, QVBoxLayout& column) 
   auto* row =
       new ParameterRow{{QString::fromStdString(field.part) + suffix + '_' + QString::fromStdString(field.quantity),
                         fieldTitle(field), partTitle(field.part) + ' ' + fieldTitle(field) + side_word,
-                        fieldMeaning(field), field.isAngle(), slider.low, slider.high, typed.low, typed.high}};
+                        fieldMeaning(field), field.unit(), slider.low, slider.high, typed.low, typed.high}};
   const auto set = [this, field, side](double value) {
     return [this, field, side, value](RetargetDesign& d) {
       setShownValue(d.body.shape, field, side, sidesLinked(), value);

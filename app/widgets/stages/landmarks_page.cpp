@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
@@ -17,6 +18,8 @@
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/radiograph_pane.h"
+#include "clinical/pipeline/patient_fit.h"
+#include "clinical/report/figure_texts.h"
 
 namespace sinew {
 namespace {
@@ -92,6 +95,17 @@ void LandmarksPage::buildList(QWidget& side) {
   table_ = makeTable("landmark_table", {tr("Landmark"), {}, {}, tr("px")});
   table_->setAccessibleName(tr("Landmarks"));
 
+  advice_ = makeLabel({}, "small");
+  advice_->setObjectName("landmark_advice");
+  advice_->setAccessibleName(tr("Landmarks that are still needed"));
+  advice_->setWordWrap(true);
+  advice_->hide();
+  constexpr int kRest_ms = 300;
+  advice_timer_ = new QTimer{this};
+  advice_timer_->setSingleShot(true);
+  advice_timer_->setInterval(kRest_ms);
+  connect(advice_timer_, &QTimer::timeout, this, &LandmarksPage::refreshAdvice);
+
   auto* card = new Card;
   card_title_ = makeLabel({}, "heading");
   card_title_->setObjectName("landmark_title");
@@ -119,6 +133,7 @@ void LandmarksPage::buildList(QWidget& side) {
   column->addWidget(search_);
   column->addLayout(line);
   column->addWidget(table_, 1);
+  column->addWidget(advice_);
   column->addWidget(card);
 
   connect(search_, &QLineEdit::textChanged, this, &LandmarksPage::filterRows);
@@ -146,8 +161,9 @@ void LandmarksPage::connectPane(RadiographPane& pane) {
     workspace().view().setLandmark(name);
   });
   connect(&canvas, &RadiographView::markDragged, this, [this, &pane](const std::string& name, const QPointF& uv_px) {
+    const double sigma_px = sigmaOfPick(pane, name);
     workspace().document().preview([&](Case& c) {
-      setSighting(c, name, pane.viewIndex(), {uv_px.x(), uv_px.y()}, 1);
+      setSighting(c, name, pane.viewIndex(), {uv_px.x(), uv_px.y()}, sigma_px);
     });
   });
   connect(&canvas, &RadiographView::markDropped, this,
@@ -162,7 +178,16 @@ void LandmarksPage::place(RadiographPane& pane, const std::string& name, const Q
                                std::clamp(uv_px.y(), 0.0, r->height_px - 1.0)};
   const bool known = findSighting(shownCase(), name, view) != nullptr;
   const QString label = (known ? tr("Move %1") : tr("Place %1")).arg(readableName(name));
-  workspace().document().edit(label, [&](Case& c) { setSighting(c, name, view, inside, typicalSigma_px(c)); });
+  const double sigma_px = sigmaOfPick(pane, name);
+  workspace().document().edit(label, [&](Case& c) { setSighting(c, name, view, inside, sigma_px); });
+}
+
+double LandmarksPage::sigmaOfPick(RadiographPane& pane, const std::string& name) {
+  const Case& c = shownCase();
+  const Radiograph* r = pane.view().radiograph();
+  constexpr double kUsualPixel_mm = 0.2;  // of a flat panel that does not say
+  const double pixel_mm = r && r->spacing ? r->spacing->column_mm : kUsualPixel_mm;
+  return pickSigma_px(workspace().resourceDir(), name, c.rig ? &*c.rig : nullptr, pane.viewIndex(), pixel_mm);
 }
 
 int LandmarksPage::viewCount() const {
@@ -307,9 +332,35 @@ void LandmarksPage::refreshFindings() {
   progress_->setText((views == 2 ? tr("%1 of %2 placed in both views") : tr("%1 of %2 placed in two views or more"))
                          .arg(placed)
                          .arg(names_.size()));
+  advice_timer_->start();
   rms_->setText(std::isfinite(rms_px) ? tr("RMS %1 px").arg(figure(rms_px, 2)) : QString{});
   refreshMarks();
   refreshCard();
+}
+
+void LandmarksPage::refreshAdvice() {
+  const Case& c = workspace().document().current();
+  if (!isVisible() || c.sightings == advised_on_) return;
+  advised_on_ = c.sightings;
+  constexpr std::size_t kFewest = 6, kShown = 3;  // sightings that place a body; lines that the page has room for
+  QStringList lines;
+  if (c.rig && c.sightings.size() >= kFewest) {
+    try {
+      const SkeletonFit fit =
+          fitPatient(workspace().reference()->skeleton, *c.rig, c.sightings, workspace().resourceDir());
+      for (const auto& text : adviceTexts(fit.advice, workspace().norms(), protocol_))
+        lines << QString::fromStdString(text);
+      if (fit.outcome == Outcome::Converged && lines.isEmpty())
+        lines << tr("These landmarks determine every figure.");
+    } catch (const InputError&) {
+      lines.clear();  // none of them is a landmark of the skeleton; the stage itself says so
+    }
+  }
+  advice_->setToolTip(lines.join('\n'));
+  const qsizetype left = lines.size() - qsizetype(kShown);
+  if (left > 0) lines = lines.mid(0, kShown) << tr("... and %1 more (see the tool tip)").arg(left);
+  advice_->setText(lines.join('\n'));
+  advice_->setVisible(!lines.isEmpty());
 }
 
 void LandmarksPage::refreshMarks() {

@@ -13,6 +13,7 @@ class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTableWidget;
+class QTimer;
 class QToolButton;
 
 namespace sinew {
@@ -47,6 +48,7 @@ class LandmarksPage : public StagePage {
   void buildList(QWidget& side);
   void refreshNames();
   void refreshFindings();
+  void refreshAdvice();  ///< what further landmarks would determine, by a fit of what is placed
   void refreshMarks();
   void refreshCard();
   void filterRows();
@@ -55,6 +57,8 @@ class LandmarksPage : public StagePage {
   int viewCount() const;
   void refreshColumns();
   void place(RadiographPane& pane, const std::string& name, const QPointF& uv_px);
+  double sigmaOfPick(RadiographPane& pane,
+                     const std::string& name);  ///< what the protocol says of a click, in pixels
 
   QString titleOfLandmark(const std::string& name) const;
 
@@ -64,7 +68,9 @@ class LandmarksPage : public StagePage {
   std::array<RadiographPane*, 2> panes_;
   QTableWidget* table_;
   QLineEdit* search_;
-  QLabel *progress_, *card_title_, *card_text_, *rms_;
+  QLabel *progress_, *card_title_, *card_text_, *rms_, *advice_;
+  QTimer* advice_timer_;              ///< the hand must rest before anything is fitted
+  std::vector<Sighting> advised_on_;  ///< what the advice on the page was made from
   QPushButton* remove_;
   int last_view_ = 0;  ///< the one that was used last: Delete works there
 };

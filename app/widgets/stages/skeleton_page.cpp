@@ -5,6 +5,8 @@
 #include <QLabel>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "app/model/stage_text.h"
@@ -13,11 +15,26 @@
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/model_view.h"
 #include "app/widgets/views/radiograph_pane.h"
+#include "clinical/report/figure_texts.h"
 #include "clinical/report/report_tables.h"
 #include "clinical/report/supported_bones.h"
 #include "core/model/bone_contours.h"
+#include "core/skeleton/fit/landmark_protocol.h"
 
 namespace sinew {
+namespace {
+
+/// The same figure the other way.
+QString comparisonText(const BoneFigure& f) {
+  if (!std::isfinite(f.other)) return {};
+  const QString other =
+      QObject::tr("%1 (%2 to %3)").arg(figure(f.other, 1), figure(f.other_lower95, 1), figure(f.other_upper95, 1));
+  return f.triangulated
+             ? QObject::tr("Taken from the picks themselves: the bone is outside the model. Fitted: %1").arg(other)
+             : QObject::tr("By the fitted bone. From the picks themselves: %1").arg(other);
+}
+
+}  // namespace
 
 SkeletonPage::SkeletonPage(Workspace& workspace)
     : StagePage{workspace, Stage::Skeleton, tr("Bones fitted to the landmarks of the radiographs.")} {
@@ -99,15 +116,18 @@ void SkeletonPage::refreshFigures() {
     const int column = f.side == "l" ? 3 : 1;
     pairs[f.quantity][f.side == "l" ? 1 : 0] = &f;
     const int decimals = 1;
-    auto* value =
-        setCell(*table_, row->second, column, f.determined ? figure(f.value, decimals) : tr(kUndetermined), kNumber);
+    const QString mark = f.triangulated ? QStringLiteral(" §") : QString{};
+    auto* value = setCell(*table_, row->second, column,
+                          f.determined ? figure(f.value, decimals) + mark : tr(kUndetermined), kNumber);
     if (f.determined) {
       setCell(*table_, row->second, column + 1,
               tr("%1 to %2").arg(figure(f.lower95, decimals), figure(f.upper95, decimals)), kNumber);
+      value->setToolTip(comparisonText(f));
     } else {
       value->setForeground(colour::kMuted);
       value->setToolTip(
-          tr("The images do not say. The model takes the population's value: %1").arg(figure(f.value, decimals)));
+          tr("The images do not say, or not well enough: %1 (%2 to %3)")
+              .arg(figure(f.value, decimals), figure(f.lower95, decimals), figure(f.upper95, decimals)));
     }
   }
   for (const auto& [quantity, pair] : pairs)
@@ -118,6 +138,13 @@ void SkeletonPage::refreshFigures() {
   if (!fit->undetermined.empty())
     text += ' ' + tr("%1 parameters are undetermined by these images and stay at the population's value.")
                       .arg(fit->undetermined.size());
+  for (const auto& warning : fit->warnings)
+    if (warning.code == "outside_model") text += ' ' + QString::fromStdString(warning.message) + '.';
+  if (std::ranges::any_of(fit->figures, &BoneFigure::triangulated))
+    text += ' ' + tr("§ taken from the picks themselves; the fitted figure is in its tool tip.");
+  const auto protocol = loadLandmarkProtocol(workspace().resourceDir());
+  for (const auto& line : adviceTexts(fit->advice, workspace().norms(), protocol))
+    text += '\n' + QString::fromStdString(line) + '.';
   summary_->setText(text);
   QStringList names;
   for (const auto& name : fit->undetermined) names << QString::fromStdString(name);

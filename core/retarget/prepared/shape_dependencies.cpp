@@ -25,10 +25,10 @@ std::vector<std::vector<Eigen::Vector3d>> pointsOf(const Model& reference) {
 /// By segment: whether it is felt there that one parameter of `shape` is another.
 std::vector<bool> segmentsFeeling(const Model& reference, const std::vector<std::vector<Eigen::Vector3d>>& points,
                                   std::vector<double> shape, std::size_t parameter) {
-  constexpr double kChange = 0.03, kAngle_rad = 0.3;
+  constexpr double kChange = 0.03, kLength_m = 0.003, kAngle_rad = 0.3;
   const Posture bent = Posture::Constant(reference.skeleton.coordinateCount(), kAngle_rad);
   const std::vector<double> before = shape;
-  shape[parameter] += kChange;
+  shape[parameter] += shapeUnit(shapeParameterNames()[parameter]) == ShapeUnit::Length ? kLength_m : kChange;
   const auto X = segmentPoses(deformedSkeleton(reference.skeleton, shapeFromVector(before)), bent);
   const auto Y = segmentPoses(deformedSkeleton(reference.skeleton, shapeFromVector(shape)), bent);
   std::vector<bool> feels;
@@ -70,7 +70,8 @@ ShapeDependencies::ShapeDependencies(const Model& reference) : felt_(reference.m
   for (const MusculotendonUnit& unit : reference.musculature.units)
     concerned.push_back(segmentsOf(reference.skeleton, unit));
   std::vector<double> shape = toVector(ShapeParameters{});
-  for (double& value : shape) value += 0.1;  // a body in which every parameter matters
+  for (std::size_t k = 0; k < shape.size(); ++k)  // a body in which every parameter matters
+    shape[k] += shapeUnit(shapeParameterNames()[k]) == ShapeUnit::Length ? 0.01 : 0.1;
   for (std::size_t k = 0; k < shape.size(); ++k) {
     const std::vector<bool> feels = segmentsFeeling(reference, points, shape, k);
     for (std::size_t u = 0; u < felt_.size(); ++u)

@@ -5,9 +5,7 @@
 #include <map>
 #include <set>
 
-#include "core/skeleton/fit/bone_figures_internal.h"
 #include "core/skeleton/fit/fit_report_internal.h"
-#include "core/skeleton/fit/fit_residuals.h"
 #include "core/text.h"
 
 namespace sinew {
@@ -25,25 +23,6 @@ void requireUsable(const LandmarkObservation& o, std::size_t view_count) {
                       "view " + std::to_string(o.view + 1)}};
   if (!o.uv_px.allFinite() || !(o.sigma_px > 0) || !std::isfinite(o.sigma_px))
     throw InputError{{"sightings", o.landmark, "finite pixel coordinates and sigma > 0", "something else"}};
-}
-
-/// Derivative of every figure with respect to the entries of z: figures x z.
-Eigen::MatrixXd figureGradients(const PosedPoints& points) {
-  constexpr int kInputs = 3 * (2 * figures::kLegPoints + 1);
-  using Jet = ceres::Jet<double, kInputs>;
-  std::vector<Vector3<Jet>> p_W;
-  for (std::size_t i = 0; i < points.p_W.size(); ++i) {
-    const int first = 3 * static_cast<int>(i);
-    p_W.emplace_back(Jet(points.p_W[i].x(), first), Jet(points.p_W[i].y(), first + 1),
-                     Jet(points.p_W[i].z(), first + 2));
-  }
-  const auto values = figureValues<Jet>(p_W);
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values.size()), points.dp_dz[0].cols());
-  for (std::size_t f = 0; f < values.size(); ++f)
-    for (std::size_t i = 0; i < points.p_W.size(); ++i)
-      gradients.row(static_cast<Eigen::Index>(f)) +=
-          values[f].v.segment<3>(3 * static_cast<Eigen::Index>(i)).transpose() * points.dp_dz[i];
-  return gradients;
 }
 
 void warnOfLandmarksSeenOnce(const SightingList& list, std::size_t view_count, Warnings& warnings) {
@@ -160,34 +139,6 @@ std::vector<std::string> namesOf(const Skeleton& reference, const BodyParameters
     }
   }
   return names;
-}
-
-std::vector<BoneFigure> figuresWithIntervals(const Skeleton& reference, const BodyParameters& body,
-                                             const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
-                                             const std::vector<bool>& undetermined) {
-  std::vector<int> landmarks;
-  for (const auto& name : figureLandmarkNames()) landmarks.push_back(reference.landmarkIndex(name));
-  std::vector<int> all(body.count());
-  for (int i = 0; i < body.count(); ++i) all[i] = i;
-  const PosedPoints points = posePoints(reference, body, landmarks, z, all);
-  const Eigen::MatrixXd gradients = figureGradients(points);
-  const std::vector<double> values = figureValues<double>(points.p_W);
-
-  std::vector<BoneFigure> figures = figureList();
-  for (std::size_t f = 0; f < figures.size(); ++f) {
-    const Eigen::VectorXd g = gradients.row(static_cast<Eigen::Index>(f));
-    Eigen::VectorXd from_prior = g;
-    for (int i = 0; i < body.count(); ++i)
-      if (!undetermined[i]) from_prior[i] = 0;
-    const double variance = g.dot(covariance * g), prior_share = from_prior.dot(covariance * from_prior);
-    constexpr double kTwoSided95 = 1.959964;
-    BoneFigure& figure = figures[f];
-    figure.value = values[f];
-    figure.lower95 = figure.value - kTwoSided95 * std::sqrt(variance);
-    figure.upper95 = figure.value + kTwoSided95 * std::sqrt(variance);
-    figure.determined = prior_share <= 0.5 * variance;
-  }
-  return figures;
 }
 
 void warnOfBounds(const BodyParameters& body, const Eigen::VectorXd& z, Warnings& warnings) {

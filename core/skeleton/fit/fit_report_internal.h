@@ -39,11 +39,6 @@ std::vector<bool> undeterminedUnknowns(const BodyParameters& body, const Eigen::
 std::vector<std::string> namesOf(const Skeleton& reference, const BodyParameters& body,
                                  const Eigen::MatrixXd& covariance, double ratio);
 
-/// Figures with 95 % intervals by linear propagation of the covariance.
-std::vector<BoneFigure> figuresWithIntervals(const Skeleton& reference, const BodyParameters& body,
-                                             const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
-                                             const std::vector<bool>& undetermined);
-
 /// Warns "parameter_at_bound": there the interval is too narrow and the shape implausible.
 void warnOfBounds(const BodyParameters& body, const Eigen::VectorXd& z, Warnings& warnings);
 

@@ -111,4 +111,25 @@ class PriorCost : public ceres::CostFunction {
   std::vector<double> weights_;
 };
 
+/// residual [-] = weight * x for one entry, for a prior with its own loss.
+class OnePriorCost : public ceres::CostFunction {
+ public:
+  OnePriorCost(int entry, int count, double weight) : entry_{entry}, weight_{weight} {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->push_back(count);
+  }
+
+  bool Evaluate(const double* const* x, double* residuals, double** jacobians) const override {
+    residuals[0] = weight_ * x[0][entry_];
+    if (!jacobians || !jacobians[0]) return true;
+    std::fill_n(jacobians[0], parameter_block_sizes()[0], 0.0);
+    jacobians[0][entry_] = weight_;
+    return true;
+  }
+
+ private:
+  int entry_;
+  double weight_;
+};
+
 }  // namespace sinew

@@ -11,12 +11,13 @@
 #include <optional>
 
 #include "core/ceres_job_internal.h"
-#include "core/skeleton/fit/bone_figures_internal.h"
+#include "core/skeleton/fit/figure_report_internal.h"
 #include "core/skeleton/fit/fit_movement_internal.h"
 #include "core/skeleton/fit/fit_noise_internal.h"
 #include "core/skeleton/fit/fit_report_internal.h"
 #include "core/skeleton/fit/fit_residuals.h"
 #include "core/skeleton/fit/fit_start_internal.h"
+#include "core/skeleton/fit/outside_bones_internal.h"
 #include "core/skeleton/fit/posed_landmarks_internal.h"
 
 namespace sinew {
@@ -290,15 +291,67 @@ class SkeletonFitter {
     constexpr double kLargestShare = 0.15;
     const std::vector<double> sigmas = distances_sigma();
     const double limit = options_.gross_error_sigma * std::max(1.0, median(sigmas) / kMedianOfInliers);
-    std::vector<std::size_t> gross;
-    for (std::size_t i = 0; i < sigmas.size(); ++i)
-      if (sigmas[i] > limit) gross.push_back(i);
-    std::ranges::sort(gross, [&](std::size_t a, std::size_t b) { return sigmas[a] > sigmas[b]; });
+    std::vector<std::size_t> gross =
+        slipsAmong(reference_, sightings_, sigmas, limit, contradictions(limit / options_.gross_error_sigma));
     const double most = kLargestShare * static_cast<double>(sigmas.size());
     if (static_cast<double>(gross.size()) > most) gross.resize(static_cast<std::size_t>(most));
     for (const std::size_t i : gross) sightings_.items[i].left_out = true;
     blocks_ = blocksOf(sightings_);
     return !gross.empty();
+  }
+
+  /// All picks of every landmark that are used, with the covariance of their errors.
+  std::vector<LandmarkPicks> picksOfBlocks() const {
+    const auto noise = noiseOfBlocks();
+    std::vector<LandmarkPicks> list;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const Block& block = blocks_[b];
+      LandmarkPicks picks{sightings_.landmarks[block.point], {}, {}, noise[b].at(scale_)};
+      picks.uv_px.resize(2 * static_cast<Eigen::Index>(block.items.size()));
+      for (std::size_t k = 0; k < block.items.size(); ++k) {
+        picks.views.push_back(sightings_.items[block.items[k]].view);
+        picks.uv_px.segment<2>(2 * static_cast<Eigen::Index>(k)) = sightings_.items[block.items[k]].uv_px;
+      }
+      list.push_back(std::move(picks));
+    }
+    return list;
+  }
+
+  /// Images as the present solution has the views: with the movement of body and joints before each exposure.
+  ImageOfPoint imageAtSolution(std::vector<int> landmarks) const {
+    std::vector<std::vector<Eigen::Vector3d>> posed;
+    for (int e = 0; e < nuisances_->exposureCount(); ++e)
+      posed.push_back(posePoints(reference_, body_, landmarks, nuisances_->bodyAt(e, z_, y_), {}).p_W);
+    return [this, landmarks = std::move(landmarks), posed = std::move(posed),
+            views = disturbedViews(views_, *nuisances_, y_, pivot_W_)](int landmark, int view,
+                                                                       const Eigen::Vector3d& p_W, SeenImage& seen) {
+      const auto l = static_cast<std::size_t>(std::ranges::find(landmarks, landmark) - landmarks.begin());
+      const Eigen::Vector3d moved = posed[nuisances_->exposureOf(view)][l] - posed.front()[l];
+      PointImage image;
+      if (!views[view].image(p_W + moved, image)) return false;
+      seen.uv_px = image.uv_px;
+      seen.by_point = image.by_point;
+      seen.by_nuisance = Eigen::Matrix2Xd::Zero(2, y_.size());
+      const Nuisances::Local& local = nuisances_->local(view);
+      for (int k = 0; k < Nuisances::kLocal; ++k)
+        if (local.y[k] >= 0) seen.by_nuisance.col(local.y[k]) = image.by_local.col(k);
+      return true;
+    };
+  }
+
+  /// Landmarks whose own picks do not meet, by more than `scale` times what is stated lets expect.
+  std::vector<bool> contradictions(double scale) const {
+    constexpr double kContradicts_sigma = 5;
+    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
+    const ImageOfPoint image = imageAtSolution(sightings_.landmarks);
+    std::vector<bool> contradicts(sightings_.landmarks.size(), false);
+    const auto picks = picksOfBlocks();
+    for (std::size_t b = 0; b < picks.size(); ++b) {
+      const int point = blocks_[b].point;
+      const auto met = pickedPoint(picks[b], image, points[point]);
+      contradicts[point] = met && met->disagreement > kContradicts_sigma * scale;
+    }
+    return contradicts;
   }
 
   /// Some steps towards the solution; how they end does not matter yet.
@@ -312,10 +365,32 @@ class SkeletonFitter {
     return seen;
   }
 
-  /// Weights of the priors of the solver's unknowns.
+  /// Deformities are rare and large: their priors are Gaussian for most bodies and no more than linear beyond, so
+  /// that a bone bent by many standard deviations is not pulled back by as many.
+  static constexpr double kUsualDeformity_sd = 1.5;
+  void addDeformityPriors(ceres::Problem& problem, const Unknowns& unknowns, SharedBody& shared) const {
+    for (std::size_t k = 0; k < unknowns.active.size(); ++k)
+      if (const int i = unknowns.active[k]; body_.isDeformable(i))
+        problem.AddResidualBlock(new OnePriorCost{static_cast<int>(k), shared.size(), body_.priorWeight(i)},
+                                 new ceres::HuberLoss{kUsualDeformity_sd}, shared.x());
+  }
+
+  /// Weights of the priors of the solver's unknowns that have no loss of their own.
+  std::vector<double> gaussianPriorWeights(const Unknowns& unknowns) const {
+    std::vector<double> weights = priorWeights(unknowns);
+    for (std::size_t k = 0; k < unknowns.active.size(); ++k)
+      if (body_.isDeformable(unknowns.active[k])) weights[k] = 0;
+    return weights;
+  }
+
+  /// Weights of the priors of the solver's unknowns at the present solution.
   std::vector<double> priorWeights(const Unknowns& unknowns) const {
     std::vector<double> weights;
-    for (const int i : unknowns.active) weights.push_back(body_.priorWeight(i));
+    for (const int i : unknowns.active) {
+      const double sigmas = std::abs(z_[i]) * body_.priorWeight(i);
+      const double share = body_.isDeformable(i) ? std::min(1.0, kUsualDeformity_sd / sigmas) : 1;
+      weights.push_back(std::sqrt(share) * body_.priorWeight(i));
+    }
     if (unknowns.nuisances) weights.insert(weights.end(), static_cast<std::size_t>(y_.size()), 1.0);
     return weights;
   }
@@ -335,7 +410,8 @@ class SkeletonFitter {
           new LandmarkCost{shared, blocks_[b].point, seenPoints(blocks_[b]), noise[b].at(scale_)},
           new ceres::HuberLoss{loss}, shared.x());
     }
-    problem.AddResidualBlock(new PriorCost{priorWeights(unknowns)}, nullptr, shared.x());
+    problem.AddResidualBlock(new PriorCost{gaussianPriorWeights(unknowns)}, nullptr, shared.x());
+    addDeformityPriors(problem, unknowns, shared);
     for (int i = 0; i < shared.activeCount(); ++i) {
       problem.SetParameterLowerBound(shared.x(), i, body_.lower(unknowns.active[i]));
       problem.SetParameterUpperBound(shared.x(), i, body_.upper(unknowns.active[i]));
@@ -414,9 +490,15 @@ class SkeletonFitter {
     describeResiduals(sightings_, fit);
     fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_, bend_);
     warnOfMovement(fit.movements, fit.warnings);
-    const auto undetermined = undeterminedUnknowns(body_, covariance_, options_.undetermined_ratio);
     fit.undetermined = namesOf(reference_, body_, covariance_, options_.undetermined_ratio);
-    fit.figures = figuresWithIntervals(reference_, body_, z_, covariance_, undetermined);
+    std::vector<int> landmarks = sightings_.landmarks;
+    for (const auto& name : options_.offered_landmarks) landmarks.push_back(reference_.landmarkIndex(name));
+    std::erase_if(landmarks, [&](int l) {
+      return reference_.landmarks[l].segment >= reference_.movingSegmentCount();  // glides with a joint
+    });
+    judgeFigures({reference_, body_, z_, covariance_, picksOfBlocks(), imageAtSolution(landmarks),
+                  nuisance_covariance_, options_.offered_landmarks, static_cast<int>(views_.size())},
+                 fit);
     warnOfBounds(body_, z_, fit.warnings);
   }
 

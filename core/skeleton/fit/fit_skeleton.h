@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/job.h"
+#include "core/skeleton/fit/bone_figure.h"
 #include "core/skeleton/fit/fit_view.h"
 #include "core/skeleton/kinematics.h"
 #include "core/skeleton/shape/shape.h"
@@ -34,6 +35,8 @@ struct FitOptions {
   double robust_loss_sigma = 3;     ///< Huber: residuals beyond this many sigma count linearly
   double gross_error_sigma = 8;     ///< what lies farther out after that is left out, named, and fitted without
   double undetermined_ratio = 0.9;  ///< a parameter whose SD stays above this share of its prior is undetermined
+  /// Landmarks that could still be picked (the protocol's): SkeletonFit::advice says which of them would help.
+  std::vector<std::string> offered_landmarks;
   /// Beside the noise of each pick. Empty: landmarks are points that all readers agree on.
   std::vector<DefinitionError> definition_errors;
   MovementPrior movement;
@@ -71,16 +74,6 @@ struct PickScale {
   double blur_mm = 0;     ///< SD of a further definition error, alike at all landmarks and in all directions
 };
 
-/// A clinical figure of the fitted skeleton with its 95 % interval.
-struct BoneFigure {
-  std::string quantity;  ///< "femur_length", "tibial_torsion", ...
-  std::string side;      ///< "r", "l" or ""
-  std::string unit;      ///< "mm" or "deg"
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double lower95 = std::numeric_limits<double>::quiet_NaN(), upper95 = std::numeric_limits<double>::quiet_NaN();
-  bool determined = false;  ///< false: the images do not say, the value is the prior's
-};
-
 struct SkeletonFit {
   Outcome outcome = Outcome::NotRun;
   ShapeParameters shape;
@@ -88,6 +81,8 @@ struct SkeletonFit {
   std::vector<LandmarkResidual> residuals;
   double rms_px = std::numeric_limits<double>::quiet_NaN();
   std::vector<BoneFigure> figures;
+  std::vector<OutsideBone> outside;  ///< bones outside the model's family of shapes, the worst first
+  std::vector<FigureAdvice> advice;  ///< for the figures that are not determined, if landmarks were offered
   PickScale pick_scale;
   std::vector<ExposureMovement> movements;  ///< one for every further exposure
   std::vector<std::string> undetermined;    ///< shape parameters and coordinates that stayed at the prior

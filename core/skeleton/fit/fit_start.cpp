@@ -97,6 +97,12 @@ std::optional<Similarity> alignPoints(std::span<const Eigen::Vector3d> body, std
   return best;
 }
 
+std::optional<Similarity> similarityOf(std::span<const Eigen::Vector3d> body,
+                                       std::span<const Eigen::Vector3d> world) {
+  if (body.size() < 3) return std::nullopt;
+  return alignWeighted(body, world, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(body.size())));
+}
+
 Similarity startOfFit(std::span<const Eigen::Vector3d> body, std::span<const View> views,
                       std::span<const StartSighting> sightings, double scale_guess) {
   std::vector<Eigen::Vector3d> seen_body, seen_world;

@@ -26,6 +26,9 @@ struct Similarity {
 /// not count. nullopt for fewer than three points or points on one line.
 std::optional<Similarity> alignPoints(std::span<const Eigen::Vector3d> body, std::span<const Eigen::Vector3d> world);
 
+/// The same without re-weighting: the plain least-squares similarity.
+std::optional<Similarity> similarityOf(std::span<const Eigen::Vector3d> body, std::span<const Eigen::Vector3d> world);
+
 /// Where the patient stands, for the start of the fit. From the midpoints between the rays of points that two views
 /// show; if there are too few, the best of a coarse search over orientations and distances along the rays.
 /// `scale_guess` is the size that the search assumes.

@@ -24,9 +24,24 @@ std::string bothSides(const std::string& field) {
   return std::string{withoutSide(part)} + (quantity.empty() ? "" : "." + quantity);
 }
 
-/// Name of a parameter in such a file: angles in degrees.
+/// A unit in such a file: what is added to the name, the unit in radians or metres, the bounds.
+struct FileUnit {
+  std::string suffix;
+  double in_si, least, greatest;
+};
+/// The units that a quantity may be given in; the first is the one that is written.
+const std::vector<FileUnit>& unitsOf(ShapeUnit unit) {
+  static const std::vector<FileUnit> ratio = {{"", 1, kLeastShapeRatio, kGreatestShapeRatio}},
+                                     angle = {{"_deg", kRadPerDeg, -kGreatestShapeAngle_rad, kGreatestShapeAngle_rad},
+                                              {"_rad", 1, -kGreatestShapeAngle_rad, kGreatestShapeAngle_rad}},
+                                     length = {{"_mm", 1e-3, -kGreatestShapeLength_m, kGreatestShapeLength_m},
+                                               {"_m", 1, -kGreatestShapeLength_m, kGreatestShapeLength_m}};
+  return unit == ShapeUnit::Angle ? angle : unit == ShapeUnit::Length ? length : ratio;
+}
+
+/// Name of a parameter in such a file: angles in degrees, lengths in millimetres.
 std::string fileName(const std::string& parameter) {
-  return isShapeAngle(parameter) ? parameter + "_deg" : parameter;
+  return parameter + unitsOf(shapeUnit(parameter)).front().suffix;
 }
 
 /// Every field of a part, as "femur.elongation", "femur_r.elongation", "trunk.mass"; for answers to a wrong one.
@@ -71,23 +86,25 @@ class BodyReader {
   void finish() { body_.shape = shapeFromVector(values_); }
 
  private:
-  void readParameter(const std::string& part, std::string quantity, const JsonReader& json) {
-    const bool in_radians = quantity.ends_with("_rad"), in_degrees = quantity.ends_with("_deg");
-    if (in_radians || in_degrees) quantity.resize(quantity.size() - 4);
-    const std::string name = part + "." + quantity;
+  void readParameter(const std::string& part, const std::string& quantity, const JsonReader& json) {
     const auto& known = shapeParameterNames();
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < known.size(); ++i)
-      if (known[i] == name || bothSides(known[i]) == name) places.push_back(i);
-    if (places.empty() || isShapeAngle(name) != (in_radians || in_degrees)) unknown(json);
+    for (const ShapeUnit kind : {ShapeUnit::Ratio, ShapeUnit::Angle, ShapeUnit::Length})
+      for (const FileUnit& unit : unitsOf(kind)) {
+        if (!quantity.ends_with(unit.suffix)) continue;
+        const std::string name = part + "." + quantity.substr(0, quantity.size() - unit.suffix.size());
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < known.size(); ++i)
+          if ((known[i] == name || bothSides(known[i]) == name) && shapeUnit(known[i]) == kind) places.push_back(i);
+        if (places.empty()) continue;
+        set(places, name, json.numberIn(unit.least / unit.in_si, unit.greatest / unit.in_si) * unit.in_si, json);
+        return;
+      }
+    unknown(json);
+  }
+
+  void set(const std::vector<std::size_t>& places, const std::string& name, double value, const JsonReader& json) {
+    const auto& known = shapeParameterNames();
     once(name, json);
-    double value = 0;
-    if (in_radians)
-      value = json.numberIn(-kGreatestShapeAngle_rad, kGreatestShapeAngle_rad);
-    else if (in_degrees)
-      value = json.numberIn(-kGreatestShapeAngle_rad / kRadPerDeg, kGreatestShapeAngle_rad / kRadPerDeg) * kRadPerDeg;
-    else
-      value = json.numberIn(kLeastShapeRatio, kGreatestShapeRatio);
     for (const std::size_t i : places)
       if (places.size() == 1 || !given_.contains(known[i])) values_[i] = value;
   }
@@ -165,7 +182,7 @@ void putShape(Json& json, const ShapeParameters& shape) {
     const bool alike = values[twin] == values[i];
     if (alike && twin < i) continue;  // the right side said it for both
     put(json, fileName(alike ? bothSides(names[i]) : names[i]),
-        isShapeAngle(names[i]) ? values[i] / kRadPerDeg : values[i]);
+        values[i] / unitsOf(shapeUnit(names[i])).front().in_si);
   }
 }
 

@@ -25,10 +25,12 @@ BodyParameters::BodyParameters(const Skeleton& skeleton, std::span<const ShapePr
   lower_.assign(count, -kFarthest_sd);
   upper_.assign(count, kFarthest_sd);
   is_angle_.resize(shape_count_);
+  deformable_.assign(count, false);
   mean_[kSize] = 1;
   for (int i = 0; i < shape_count_; ++i) {
     is_angle_[i] = isShapeAngle(names[i]);
-    mean_[kShapeBegin + i] = is_angle_[i] ? 0 : 1;
+    deformable_[kShapeBegin + i] = shapeUnit(names[i]) != ShapeUnit::Ratio;
+    mean_[kShapeBegin + i] = shapeUnit(names[i]) == ShapeUnit::Ratio ? 1 : 0;
   }
   for (const auto& prior : priors) {
     const auto at = std::ranges::find(names, prior.parameter);
@@ -42,8 +44,9 @@ BodyParameters::BodyParameters(const Skeleton& skeleton, std::span<const ShapePr
                         std::to_string(prior.mean) + " +- " + std::to_string(prior.sd)}};
     mean_[i] = prior.mean;
     sd_[i] = prior.sd;
-    // Ratios stay so close together that no bone is shorter than its heads; deformed angles have room.
-    const double farthest = isShapeAngle(prior.parameter) ? std::numeric_limits<double>::infinity() : kFarthest_sd;
+    // Ratios stay so close together that no bone is shorter than its heads; deformities have room.
+    const bool ratio = shapeUnit(prior.parameter) == ShapeUnit::Ratio;
+    const double farthest = ratio ? kFarthest_sd : std::numeric_limits<double>::infinity();
     lower_[i] = std::max(-farthest, (bounds.lower - prior.mean) / prior.sd);
     upper_[i] = std::min(farthest, (bounds.upper - prior.mean) / prior.sd);
   }

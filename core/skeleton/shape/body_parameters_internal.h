@@ -14,7 +14,7 @@ namespace sinew {
 /// Every unknown of a body as one vector z of standardized deviations from the population: size, the shape
 /// parameters, the entries of q. Prior of entry i: Gaussian with mean 0 and SD 1 / prior_weight[i]; almost flat for
 /// the root.
-///   shape ratio = size * (mean + sd z),   shape angle = mean + sd z,   q = q_start + sd z
+///   shape ratio or length = size * (mean + sd z),   shape angle = mean + sd z,   q = q_start + sd z
 class BodyParameters {
  public:
   BodyParameters(const Skeleton& skeleton, std::span<const ShapePrior> priors);
@@ -29,6 +29,8 @@ class BodyParameters {
   double upper(int i) const { return upper_[i]; }
   bool hasPrior(int i) const { return sd_[i] > 0; }
   double sd(int i) const { return sd_[i]; }
+  /// An added angle or length of the shape: what deformities change.
+  bool isDeformable(int i) const { return deformable_[i]; }
 
   /// Moves the origin of the root's entries, whose prior is flat.
   void setRootStart(const Eigen::Vector3d& p_W, const Eigen::Vector3d& rotation_vector_rad);
@@ -49,7 +51,7 @@ class BodyParameters {
  private:
   int shape_count_;
   std::vector<double> mean_, sd_, prior_weight_, lower_, upper_;
-  std::vector<bool> is_angle_;
+  std::vector<bool> is_angle_, deformable_;
 };
 
 }  // namespace sinew

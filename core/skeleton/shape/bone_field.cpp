@@ -1,8 +1,10 @@
 #include "core/skeleton/shape/bone_field.h"
 
-#include <numbers>
+#include <algorithm>
+#include <limits>
 #include <string_view>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/skeleton/shape/deformed_inertia.h"
 #include "core/skeleton/shape/field_jets_internal.h"
@@ -38,47 +40,70 @@ void requireLongerThanHeads(const std::string& bone, const LimbBoneShape& limb) 
                       std::to_string(limb.elongation)}};
 }
 
-/// The two turns of the femur in the frontal plane bring points at its sides together. Torsion only shears, and the
-/// other fields cannot fold.
-void requireUnfolded(const Skeleton& reference, const ShapeParameters& shape, int side) {
-  const LimbBoneShape& femur = shape.sides[std::size_t(side)].femur;
-  if (femur.neck_shaft_rad == 0 && femur.varus_rad == 0) return;
-  ShapeParameters straight = shape;
-  straight.sides[std::size_t(side)].femur.neck_shaft_rad = straight.sides[std::size_t(side)].femur.varus_rad = 0;
-  const auto bent_jets = field::pointJets(toVector(shape)), straight_jets = field::pointJets(toVector(straight));
-  const field::Place place{field::Kind::Femur, side == 1};
-  const auto check = [&](double u, double z, const char* parameter, double angle_rad) {
-    constexpr double kLeastShare = 0.1;  // of the volume that it has without the two angles
-    for (const double x : {-0.03, 0.03}) {
-      const Eigen::Vector3d p{x, -u, side == 0 ? z : -z};
-      if (field::jacobianAt(reference, bent_jets, place, p).d_point.determinant() <
-          kLeastShare * field::jacobianAt(reference, straight_jets, place, p).d_point.determinant())
-        throw InputError{{"shape", std::string{side == 0 ? "femur_r." : "femur_l."} + parameter,
-                          "an angle that does not fold the bone, given its elongation",
-                          std::to_string(angle_rad * 180 / std::numbers::pi) + " deg"}};
-    }
-  };
-  const field::LimbReference& r = field::limbReference(field::kFemur);
-  constexpr int kSteps = 12;
-  constexpr double kInside_m = -0.02, kTrochanter_m = 0.075,
-                   kCondyle_m = 0.05;  // extent of the bone, lateral positive
-  for (int i = 0; i <= kSteps; ++i) {
-    const double t = double(i) / kSteps;
-    for (const double z : {kInside_m, kTrochanter_m})
-      check(r.neck_begin + t * (r.neck_end - r.neck_begin), z, "neck_shaft", femur.neck_shaft_rad);
-    for (const double z : {-kCondyle_m, kCondyle_m})
-      check(r.varus_begin + t * (r.distal_begin - r.varus_begin), z, "varus", femur.varus_rad);
+/// The bends of femur and tibia bring points at their sides together. Torsion only shears, and the other fields
+/// cannot fold.
+struct BentBone {
+  const char* name;
+  field::Kind kind;
+  int bends, end;                                                    ///< of its bends among the parameters of a side
+  double top_u_m, bottom_u_m, front_m, back_m, outside_m, inside_m;  ///< extent of the bone, reference
+};
+constexpr BentBone kBentBones[] = {{"femur", field::Kind::Femur, field::kFemur + field::kVarus, field::kTibia, -0.02,
+                                    0.45, 0.03, -0.03, 0.06, -0.045},
+                                   {"tibia", field::Kind::Tibia, field::kTibia + field::kVarus, field::kHumerus, 0.02,
+                                    0.44, 0.03, -0.03, 0.042, -0.038}};
+
+/// The bend without which there would be most volume at p: the one to blame.
+int worstBend(const Skeleton& reference, const std::vector<double>& all, const field::Place& place, int first,
+              int last, const Eigen::Vector3d& p) {
+  int worst = first;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int k = first; k < last; ++k) {
+    if (all[std::size_t(k)] == 0) continue;
+    std::vector<double> without = all;
+    without[std::size_t(k)] = 0;
+    const double left = field::jacobianAt(reference, field::pointJets(without), place, p).d_point.determinant();
+    if (left > most) most = left, worst = k;
   }
+  return worst;
+}
+
+void requireUnfolded(const Skeleton& reference, const std::vector<double>& all, const BentBone& bone, bool left) {
+  const int side = field::kSideBegin + (left ? field::kSideCount : 0);
+  const int first = side + bone.bends, last = side + bone.end;
+  std::vector<double> straight = all;
+  std::fill(straight.begin() + first, straight.begin() + last, 0.0);
+  if (straight == all) return;
+  const auto bent_jets = field::pointJets(all), straight_jets = field::pointJets(straight);
+  const field::Place place{bone.kind, left};
+  constexpr int kLevels = 36;
+  constexpr double kLeastShare = 0.1;  // of the volume that it has without the bends
+  for (int i = 0; i <= kLevels; ++i)
+    for (const double x : {bone.back_m, bone.front_m})
+      for (const double z : {bone.inside_m, bone.outside_m}) {
+        const double u = bone.top_u_m + (bone.bottom_u_m - bone.top_u_m) * i / kLevels;
+        const Eigen::Vector3d p{x, -u, left ? -z : z};
+        if (field::jacobianAt(reference, bent_jets, place, p).d_point.determinant() >=
+            kLeastShare * field::jacobianAt(reference, straight_jets, place, p).d_point.determinant())
+          continue;
+        const std::size_t k = std::size_t(worstBend(reference, all, place, first, last, p));
+        const std::string& name = shapeParameterNames()[k];
+        const bool angle = isShapeAngle(name);
+        throw InputError{
+            {"shape", name, "a bend that does not fold the bone, given its elongation",
+             angle ? std::to_string(all[k] / kRadPerDeg) + " deg" : std::to_string(1e3 * all[k]) + " mm"}};
+      }
 }
 
 void requireSound(const Skeleton& reference, const ShapeParameters& shape) {
+  const std::vector<double> all = toVector(shape);
   for (int i = 0; i < 2; ++i) {
     const SideShape& s = shape.sides[std::size_t(i)];
     const char* suffix = i == 0 ? "_r" : "_l";
     for (const auto& [bone, limb] : {std::pair{"femur", &s.femur}, std::pair{"tibia", &s.tibia},
                                      std::pair{"humerus", &s.humerus}, std::pair{"ulna", &s.ulna}})
       requireLongerThanHeads(std::string{bone} + suffix, *limb);
-    requireUnfolded(reference, shape, i);
+    for (const BentBone& bone : kBentBones) requireUnfolded(reference, all, bone, i == 1);
   }
 }
 

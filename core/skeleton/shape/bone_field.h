@@ -28,8 +28,8 @@ RigidTransformT<T> deformedJointFrame(const Skeleton& reference, const std::vect
 
 /// The skeleton of this shape: joint frames, landmarks, driven bodies, masses and inertias (of the deformed volume,
 /// see deformed_inertia.h).
-/// @throws InputError naming the parameter if a limb would be much shorter than its two heads, or if the neck-shaft
-/// or varus angle would fold the femur.
+/// @throws InputError naming the parameter if a limb would be much shorter than its two heads, or if a bend would
+/// fold femur or tibia.
 Skeleton deformedSkeleton(const Skeleton& reference, const ShapeParameters& shape);
 
 }  // namespace sinew

@@ -2,7 +2,7 @@
 // Definitions of the templates of bone_field.h. Fields of the right side; the left side goes through the mirror.
 // T: scalar of the parameters and of the result; U: scalar of the point, double or T.
 #include "core/skeleton/shape/bone_field.h"
-#include "core/skeleton/shape/limb_field_internal.h"
+#include "core/skeleton/shape/limb_bends_internal.h"
 #include "core/skeleton/shape/trunk_field_internal.h"
 
 namespace sinew {
@@ -118,6 +118,15 @@ Matrix3<T> jointRotationRight(Kind kind, const T* all, const T* side, const Eige
   }
 }
 
+/// How far the joint of the pelvis with `child` stands off its place on the pelvis; zero for all but the hips.
+template <class T>
+Vector3<T> hipShift(const Skeleton& reference, const std::vector<T>& parameters, int child) {
+  const Place place = placeOf(reference, child);
+  if (place.kind != Kind::Femur) return Vector3<T>::Zero();
+  const T* hip = sideOf(place, parameters) + kHip;
+  return {hip[2], hip[1], place.left ? T(-hip[0]) : hip[0]};
+}
+
 }  // namespace field
 
 template <class T>
@@ -140,6 +149,7 @@ RigidTransformT<T> deformedJointFrame(const Skeleton& reference, const std::vect
     turn = Matrix3<T>{flip.asDiagonal() * turn * flip.asDiagonal()};
   }
   X.translation() = field::deformAt(reference, parameters, place, p);
+  if (place.kind == field::Kind::Pelvis) X.translation() += field::hipShift(reference, parameters, j.child);
   X.linear() = turn * X.linear();
   return X;
 }

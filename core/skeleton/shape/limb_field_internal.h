@@ -7,8 +7,12 @@
 namespace sinew::field {
 
 // Places of the parameters of one side in the flat list of shapeParameterNames(), and of one limb bone in them.
-constexpr int kElongation = 0, kProximalScale = 1, kDistalScale = 2, kTorsion = 3, kNeckShaft = 4, kVarus = 5;
-constexpr int kFemur = 0, kTibia = 6, kHumerus = 10, kUlna = 14, kFoot = 18, kHand = 19, kSideCount = 20;
+constexpr int kElongation = 0, kProximalScale = 1, kDistalScale = 2, kTorsion = 3;
+constexpr int kVarus = 4, kProcurvatum = 5;  // femur and tibia
+constexpr int kNeckShaft = 6, kNeckLength = 7, kNeckVarus = 8, kNeckRetroversion = 9, kBowFrontal = 10,
+              kBowSagittal = 11;                         // femur
+constexpr int kDistalVarus = 6, kDistalProcurvatum = 7;  // tibia
+constexpr int kFemur = 0, kTibia = 12, kHumerus = 20, kUlna = 24, kFoot = 28, kHand = 29, kHip = 30, kSideCount = 33;
 
 /// C1 step from 0 at x <= 0 to 1 at x >= 1, and its integral from 0.
 template <class U>
@@ -22,13 +26,11 @@ U stepIntegral(const U& x) {
 
 /// Reference proportions of a limb bone, along the axial coordinate u = -y from the proximal joint centre [m].
 struct LimbReference {
-  double length;                ///< to the distal joint centre
-  double proximal_end;          ///< the proximal head reaches to here ...
-  double distal_begin;          ///< ... and the distal head begins here
-  double blend;                 ///< half width of the blends between head and shaft
-  double neck_begin, neck_end;  ///< the neck-shaft angle fades out between (femur)
-  double varus_begin;           ///< the varus angle sets in between here and distal_begin (femur)
-  int axis_points;  ///< shaft axis as (u, x, z); zero in the distal head, so that torsion turns it rigidly
+  double length;        ///< to the distal joint centre
+  double proximal_end;  ///< the proximal head reaches to here ...
+  double distal_begin;  ///< ... and the distal head begins here
+  double blend;         ///< half width of the blends between head and shaft
+  int axis_points;      ///< shaft axis as (u, x, z); zero in the distal head, so that torsion turns it rigidly
   std::array<Eigen::Vector3d, 6> axis;
 };
 
@@ -37,9 +39,6 @@ inline const LimbReference& limbReference(int bone) {
                                    0.100,
                                    0.352,
                                    0.020,
-                                   0.030,
-                                   0.100,
-                                   0.290,
                                    6,
                                    {Eigen::Vector3d{0.0, -0.006, 0.041},
                                     {0.080, -0.006, 0.041},
@@ -51,9 +50,6 @@ inline const LimbReference& limbReference(int bone) {
                                    0.090,
                                    0.370,
                                    0.020,
-                                   0,
-                                   0,
-                                   0,
                                    5,
                                    {Eigen::Vector3d{0.0, 0.003, 0.0},
                                     {0.120, 0.002, 0.000},
@@ -65,9 +61,6 @@ inline const LimbReference& limbReference(int bone) {
                                      0.060,
                                      0.240,
                                      0.015,
-                                     0,
-                                     0,
-                                     0,
                                      4,
                                      {Eigen::Vector3d{0.0, 0.003, 0.003},
                                       {0.200, 0.003, 0.003},
@@ -77,8 +70,7 @@ inline const LimbReference& limbReference(int bone) {
                                       {0, 0, 0}}};
   static const LimbReference ulna{
       0.258, 0.060, 0.208,
-      0.015, 0,     0,
-      0,     2,     {Eigen::Vector3d{0.0, 0.0, 0.0}, {0.258, 0.0, 0.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+      0.015, 2,     {Eigen::Vector3d{0.0, 0.0, 0.0}, {0.258, 0.0, 0.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
   return bone == kFemur ? femur : bone == kTibia ? tibia : bone == kHumerus ? humerus : ulna;
 }
 
@@ -155,56 +147,15 @@ T crossScale(const LimbReference& r, const T* limb, const U& u) {
   return limb[kProximalScale] * T(w.proximal) + mean * T(w.shaft) + limb[kDistalScale] * T(w.distal);
 }
 
-// Shares of the added angles at u: neck-shaft from 1 at the head to 0, torsion and varus from 0 to 1. The three reach
-// over places that do not overlap, but for torsion with varus.
-template <class U>
-U neckShare(const LimbReference& r, const U& u) {
-  return U(1) - step<U>((u - U(r.neck_begin)) / U(r.neck_end - r.neck_begin));
-}
+/// Share of the torsion at u.
 template <class U>
 U torsionShare(const LimbReference& r, const U& u) {
   return step<U>((u - U(r.proximal_end)) / U(r.distal_begin - r.proximal_end));
-}
-template <class U>
-U varusShare(const LimbReference& r, const U& u) {
-  return step<U>((u - U(r.varus_begin)) / U(r.distal_begin - r.varus_begin));
-}
-
-template <class T>
-Matrix3<T> limbDistalRotation(int bone, const T* limb) {
-  const Matrix3<T> torsion = rotationAbout<T>(-Eigen::Vector3d::UnitY(), limb[kTorsion]);
-  return bone == kFemur ? Matrix3<T>{rotationAbout<T>(Eigen::Vector3d::UnitX(), limb[kVarus]) * torsion} : torsion;
 }
 
 template <class T>
 Vector3<T> distalCenter(const LimbReference& r, const T* limb) {
   return {T(0), -limb[kElongation] * T(r.length), T(0)};
-}
-
-/// Field of a limb bone, right side: stretch and scale, then neck-shaft turn about the head centre, torsion about the
-/// shaft axis, varus about the distal joint centre.
-template <class T, class U>
-Vector3<T> deformLimb(int bone, const T* limb, const Vector3<U>& p) {
-  const LimbReference& r = limbReference(bone);
-  const U u = -p.y();
-  const T cross = crossScale(r, limb, u);
-  Vector3<T> x{cross * T(p.x()), -axialImage(r, axialRates(r, limb), u), cross * T(p.z())};
-  if (bone == kFemur) {
-    const U neck = neckShare(r, u);
-    if (neck > U(0)) x = rotationAbout<T>(Eigen::Vector3d::UnitX(), limb[kNeckShaft] * T(neck)) * x;
-  }
-  const U turn = torsionShare(r, u);
-  if (turn > U(0)) {
-    const Eigen::Matrix<U, 2, 1> c = shaftAxis(r, u);
-    const Vector3<T> axis{cross * T(c.x()), T(0), cross * T(c.y())};
-    x = axis + rotationAbout<T>(-Eigen::Vector3d::UnitY(), limb[kTorsion] * T(turn)) * (x - axis);
-  }
-  if (bone == kFemur) {
-    const U bent = varusShare(r, u);
-    const Vector3<T> knee = distalCenter(r, limb);
-    if (bent > U(0)) x = knee + rotationAbout<T>(Eigen::Vector3d::UnitX(), limb[kVarus] * T(bent)) * (x - knee);
-  }
-  return x;
 }
 
 }  // namespace sinew::field

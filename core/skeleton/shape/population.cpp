@@ -27,8 +27,17 @@ double drawDeviation(std::mt19937_64& random, double max_sd) {
 
 Bounds shapeBounds(const std::string& parameter) {
   if (parameter == kSizePrior) return {0.25, 1.6};
-  if (!isShapeAngle(parameter)) return {0.2, 2.5};
   constexpr double kTorsion_rad = 75 * kRadPerDeg, kAngle_rad = 40 * kRadPerDeg;
+  constexpr double kNeckLength_m = 0.025, kHipShift_m = 0.1;  // a high dislocation
+  switch (shapeUnit(parameter)) {
+    case ShapeUnit::Ratio:
+      return {0.2, 2.5};
+    case ShapeUnit::Length:
+      return parameter.ends_with(".neck_length") ? Bounds{-kNeckLength_m, kNeckLength_m}
+                                                 : Bounds{-kHipShift_m, kHipShift_m};
+    case ShapeUnit::Angle:
+      break;
+  }
   return parameter.ends_with(".torsion") ? Bounds{-kTorsion_rad, kTorsion_rad} : Bounds{-kAngle_rad, kAngle_rad};
 }
 

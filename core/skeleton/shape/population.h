@@ -12,13 +12,11 @@ namespace sinew {
 // The population that the fit takes its priors from, and that synthetic patients are drawn from: the same one, so
 // that stated intervals can be checked against truth. Every quantity is mean + SD * deviation, deviations being
 // independent standard normal numbers. One factor "size" multiplies all ratios of a body (parameter = size * (mean +
-// SD * deviation)), so that bones which no image shows follow the size of those that are seen.
+// SD * deviation)), so that bones which no image shows follow the size of those that are seen; added lengths grow
+// with it too, angles do not.
 
 /// The name of that factor among the priors.
 inline constexpr const char* kSizePrior = "size";
-
-/// Angles (torsion, neck_shaft, varus, bend) are radians and do not grow with size; everything else is a ratio.
-bool isShapeAngle(const std::string& parameter);
 
 /// Lower and upper bound of a shape parameter in the fit: what the deformation represents well.
 struct Bounds {

@@ -1,9 +1,9 @@
 #include "core/skeleton/shape/shape.h"
 
-#include <cmath>
-#include <functional>
-#include <numbers>
+#include <algorithm>
+#include <string_view>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace sinew {
@@ -29,20 +29,47 @@ void forEachParameter(Shape& shape, F&& f) {
       f(bone + suffix + "distal_scale", b.distal_scale);
       f(bone + suffix + "torsion", b.torsion_rad);
     };
+    const auto bend = [&](const std::string& bone, auto& b) {
+      f(bone + suffix + "varus", b.varus_rad);
+      f(bone + suffix + "procurvatum", b.procurvatum_rad);
+    };
     limb("femur", side.femur);
+    bend("femur", side.femur);
     f("femur" + suffix + "neck_shaft", side.femur.neck_shaft_rad);
-    f("femur" + suffix + "varus", side.femur.varus_rad);
+    f("femur" + suffix + "neck_length", side.femur.neck_length_m);
+    f("femur" + suffix + "neck_varus", side.femur.neck_varus_rad);
+    f("femur" + suffix + "neck_retroversion", side.femur.neck_retroversion_rad);
+    f("femur" + suffix + "bow_frontal", side.femur.bow_frontal_rad);
+    f("femur" + suffix + "bow_sagittal", side.femur.bow_sagittal_rad);
     limb("tibia", side.tibia);
+    bend("tibia", side.tibia);
+    f("tibia" + suffix + "distal_varus", side.tibia.distal_varus_rad);
+    f("tibia" + suffix + "distal_procurvatum", side.tibia.distal_procurvatum_rad);
     limb("humerus", side.humerus);
     limb("ulna", side.ulna);
     f("foot" + suffix + "scale", side.foot_scale);
     f("hand" + suffix + "scale", side.hand_scale);
+    f("hip" + suffix + "lateral", side.hip.lateral_m);
+    f("hip" + suffix + "superior", side.hip.superior_m);
+    f("hip" + suffix + "anterior", side.hip.anterior_m);
   }
 }
 
-bool isAngle(const std::string& name) {
-  return name.ends_with(".torsion") || name.ends_with(".neck_shaft") || name.ends_with(".varus") ||
-         name.ends_with(".bend");
+/// Bounds and how a person is told of them.
+struct Allowed {
+  double least, greatest, per_shown;
+  const char *expected, *unit;
+};
+Allowed allowedOf(ShapeUnit unit) {
+  switch (unit) {
+    case ShapeUnit::Angle:
+      return {-kGreatestShapeAngle_rad, kGreatestShapeAngle_rad, kRadPerDeg, "an angle within +-90 deg", " deg"};
+    case ShapeUnit::Length:
+      return {-kGreatestShapeLength_m, kGreatestShapeLength_m, 1e-3, "a length within +-150 mm", " mm"};
+    case ShapeUnit::Ratio:
+      break;
+  }
+  return {kLeastShapeRatio, kGreatestShapeRatio, 1, "a ratio from 0.2 to 4", ""};
 }
 
 }  // namespace
@@ -71,14 +98,22 @@ ShapeParameters shapeFromVector(const std::vector<double>& values) {
   return shape;
 }
 
+ShapeUnit shapeUnit(const std::string& parameter) {
+  constexpr std::string_view kAngles[] = {"torsion",    "varus",        "procurvatum",       "neck_shaft",
+                                          "neck_varus", "bow_frontal",  "bow_sagittal",      "neck_retroversion",
+                                          "bend",       "distal_varus", "distal_procurvatum"};
+  constexpr std::string_view kLengths[] = {"lateral", "superior", "anterior", "neck_length"};
+  const std::string_view quantity = std::string_view{parameter}.substr(parameter.find('.') + 1);
+  if (std::ranges::find(kAngles, quantity) != std::end(kAngles)) return ShapeUnit::Angle;
+  if (std::ranges::find(kLengths, quantity) != std::end(kLengths)) return ShapeUnit::Length;
+  return ShapeUnit::Ratio;
+}
+
 void validate(const ShapeParameters& shape) {
   forEachParameter(shape, [](const std::string& name, double value) {
-    const bool angle = isAngle(name);
-    const double low = angle ? -kGreatestShapeAngle_rad : kLeastShapeRatio;
-    const double high = angle ? kGreatestShapeAngle_rad : kGreatestShapeRatio;
-    if (!(value >= low && value <= high))
-      throw InputError{{"shape", name, angle ? "an angle within +-90 deg" : "a ratio from 0.2 to 4",
-                        angle ? std::to_string(value * 180 / std::numbers::pi) + " deg" : std::to_string(value)}};
+    const Allowed allowed = allowedOf(shapeUnit(name));
+    if (!(value >= allowed.least && value <= allowed.greatest))
+      throw InputError{{"shape", name, allowed.expected, std::to_string(value / allowed.per_shown) + allowed.unit}};
   });
 }
 

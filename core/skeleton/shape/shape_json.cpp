@@ -3,14 +3,34 @@
 #include <algorithm>
 
 #include "core/skeleton/shape/population.h"
+#include "core/skeleton/skeleton.h"
 #include "core/text.h"
 
 namespace sinew {
 namespace {
 
-/// Name of a parameter in files: angles carry their unit.
+/// Name of a parameter in files: angles and lengths carry their unit.
 std::string fileName(const std::string& parameter) {
-  return isShapeAngle(parameter) ? parameter + "_rad" : parameter;
+  switch (shapeUnit(parameter)) {
+    case ShapeUnit::Angle:
+      return parameter + "_rad";
+    case ShapeUnit::Length:
+      return parameter + "_m";
+    case ShapeUnit::Ratio:
+      break;
+  }
+  return parameter;
+}
+
+/// Parameters that older files do not have: there they are neutral.
+bool isAddedLater(const std::string& parameter) {
+  const auto dot = parameter.find('.');
+  const std::string_view part = withoutSide(std::string_view{parameter}.substr(0, dot));
+  const std::string_view quantity = std::string_view{parameter}.substr(dot + 1);
+  if (part == "hip") return true;
+  if (part == "tibia") return quantity.ends_with("varus") || quantity.ends_with("procurvatum");
+  return part == "femur" && (quantity == "procurvatum" || quantity.starts_with("bow_") || quantity == "neck_length" ||
+                             quantity == "neck_varus" || quantity == "neck_retroversion");
 }
 
 }  // namespace
@@ -24,10 +44,11 @@ Json shapeToJson(const ShapeParameters& shape) {
 
 ShapeParameters shapeFromJson(const JsonReader& json) {
   std::vector<std::string> names;
-  std::vector<double> values;
-  for (const auto& parameter : shapeParameterNames()) {
-    names.push_back(fileName(parameter));
-    values.push_back(json[names.back()].number());
+  std::vector<double> values = toVector(ShapeParameters{});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    names.push_back(fileName(shapeParameterNames()[i]));
+    if (isAddedLater(shapeParameterNames()[i]) && !json.find(names.back())) continue;
+    values[i] = json[names.back()].number();
   }
   for (const auto& [name, value] : json.members())
     if (std::ranges::find(names, name) == names.end())

@@ -5,9 +5,10 @@
 
 namespace sinew {
 
-/// {"pelvis.width": 1.02, "femur_r.torsion_rad": 0.1, ...}: every parameter, angles with their unit. For files that
-/// the program writes for itself.
+/// {"pelvis.width": 1.02, "femur_r.torsion_rad": 0.1, ...}: every parameter, angles and lengths with their unit. For
+/// files that the program writes for itself.
 Json shapeToJson(const ShapeParameters& shape);
+/// Hips, bows, and the other bends of the lower limb may be missing: older files do not have them, and mean 0.
 /// @throws InputError for a missing or unknown parameter, or a value that the deformation cannot represent.
 ShapeParameters shapeFromJson(const JsonReader& json);
 

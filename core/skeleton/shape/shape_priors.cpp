@@ -24,31 +24,39 @@ std::vector<std::string> parametersOf(const std::string& name) {
   return sides;
 }
 
+const char* unitOf(const std::string& parameter) {
+  switch (shapeUnit(parameter)) {
+    case ShapeUnit::Angle:
+      return "deg";
+    case ShapeUnit::Length:
+      return "mm";
+    case ShapeUnit::Ratio:
+      break;
+  }
+  return "ratio";
+}
+
 void addPriors(const JsonReader& json, std::vector<ShapePrior>& priors) {
-  json.allowOnly({"parameter", "unit", "mean", "sd", "verified", "source"});
+  json.allowOnly({"parameter", "unit", "mean", "sd", "verified", "source", "deformity"});
   const std::string name = json["parameter"].text();
   const auto parameters = parametersOf(name);
   if (parameters.empty()) json["parameter"].fail("a shape parameter" + didYouMean(name, shapeParameterNames()), name);
-  const bool angle = json["unit"].oneOf({"ratio", "deg"}) == "deg";
-  if (angle != isShapeAngle(parameters.front()))
-    json["unit"].fail(angle ? "ratio, the unit of " + name : "deg, the unit of " + name);
-  const double unit = angle ? kRadPerDeg : 1;
-  const double mean = unit * (angle ? json["mean"].numberIn(-90, 90) : json["mean"].numberIn(0.2, 4));
+  const std::string given = json["unit"].oneOf({"ratio", "deg", "mm"}), needed = unitOf(parameters.front());
+  if (given != needed) json["unit"].fail(needed + ", the unit of " + name);
+  const double unit = needed == "deg" ? kRadPerDeg : needed == "mm" ? 1e-3 : 1;
+  const double mean = unit * (needed == "ratio" ? json["mean"].numberIn(0.2, 4) : json["mean"].numberIn(-90, 90));
   const double sd = unit * json["sd"].positive();
+  const auto deformity = json.find("deformity");
   const bool verified = json["verified"].boolean();
   for (const auto& parameter : parameters) {
     if (std::ranges::count(priors, parameter, &ShapePrior::parameter))
       json["parameter"].fail("one prior a parameter", name + " twice");
-    priors.push_back({parameter, mean, sd, json["source"].text() + (verified ? "" : " (not verified)")});
+    priors.push_back({parameter, mean, sd, json["source"].text() + (verified ? "" : " (not verified)"),
+                      deformity && deformity->boolean()});
   }
 }
 
 }  // namespace
-
-bool isShapeAngle(const std::string& parameter) {
-  return std::ranges::any_of(std::initializer_list<std::string_view>{".torsion", ".neck_shaft", ".varus", ".bend"},
-                             [&](std::string_view end) { return parameter.ends_with(end); });
-}
 
 std::vector<ShapePrior> loadShapePriors(const std::filesystem::path& resource_dir) {
   const auto file = resource_dir / "clinical" / "shape_priors.json";

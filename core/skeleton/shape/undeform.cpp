@@ -1,5 +1,6 @@
 #include <ceres/jet.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -12,36 +13,46 @@ namespace {
 using namespace field;
 using Eigen::Vector3d;
 
-Vector3d turned(const Vector3d& axis, double angle_rad, const Vector3d& x) {
-  return rotationAbout<double>(axis, angle_rad) * x;
-}
-
 struct ValueAndSlope {
   double value, slope;
 };
 
-/// Takes the varus turn of the place u back from x (femur).
+/// The limb's parameters with zero derivatives, for jets of the axial coordinate.
 template <class T>
-Vector3<T> withoutVarus(const LimbReference& r, const double* limb, const T& u, const Vector3d& x) {
-  const Vector3d knee = distalCenter(r, limb);
-  const T angle = -limb[kVarus] * varusShare(r, u);
-  return knee.cast<T>() + rotationAbout<T>(Vector3d::UnitX(), angle) * Vector3d{x - knee}.cast<T>();
+std::array<T, 12> parametersAs(int bone, const double* limb) {
+  std::array<T, 12> all{};
+  const int count = bone == kFemur ? 12 : bone == kTibia ? 8 : 4;
+  for (int i = 0; i < count; ++i) all[std::size_t(i)] = T(limb[i]);
+  return all;
+}
+
+/// Takes back from x the bends that the place u has been given after torsion.
+template <class T>
+Vector3<T> withoutBends(int bone, const LimbReference& r, const T* limb, const T& u, Vector3<T> x) {
+  const Vector3<T> distal = distalCenter(r, limb);
+  if (bone == kFemur) {
+    x = distal + turnedBack(kneeBend(limb, u), Vector3<T>{x - distal});
+    return turnedBack(bowBend(limb, u), x);
+  }
+  if (bone == kTibia) {
+    x = turnedBack(metaphysisBend(limb, u), x);
+    return distal + turnedBack(ankleBend(limb, u), Vector3<T>{x - distal});
+  }
+  return x;
 }
 
 /// All but the stretch goes back in closed form once the axial coordinate u is known; u is the root of one monotone
-/// function: where the stretch takes u, less the depth of x with the femur's own turns at u taken back.
+/// function: where the stretch takes u, less the depth of x with the turns at u taken back. (The neck-shaft turn ends
+/// where torsion begins, so that torsion, which keeps depths, need not be known.)
 double axialCoordinate(int bone, const LimbReference& r, const double* limb, const Vector3d& x) {
   using Jet = ceres::Jet<double, 1>;
-  const AxialRates<double> rates = axialRates(r, limb);
-  const AxialRates<Jet> jets{Jet(rates.proximal), Jet(rates.shaft), Jet(rates.distal)};
+  const auto parameters = parametersAs<Jet>(bone, limb);
+  const AxialRates<Jet> rates = axialRates(r, parameters.data());
   const auto imbalance = [&](double at) {
     const Jet u(at, 0);
-    Vector3<Jet> back = x.cast<Jet>();
-    if (bone == kFemur) {
-      back = withoutVarus(r, limb, u, x);
-      back = rotationAbout<Jet>(Vector3d::UnitX(), -limb[kNeckShaft] * neckShare(r, u)) * back;
-    }
-    const Jet gap = axialImage(r, jets, u) + back.y();
+    Vector3<Jet> back = withoutBends<Jet>(bone, r, parameters.data(), u, x.cast<Jet>());
+    if (bone == kFemur) back = turnedBack(neckShaftBend(parameters.data(), u), back);
+    const Jet gap = axialImage(r, rates, u) + back.y();
     return ValueAndSlope{gap.a, gap.v[0]};
   };
   double low = -r.length, high = 2 * r.length;
@@ -50,15 +61,30 @@ double axialCoordinate(int bone, const LimbReference& r, const double* limb, con
   return bracketedRoot(low, high, imbalance);
 }
 
+/// Before the neck was shifted: p = x - shift * weight(p), with the weight as the root of one monotone function.
+Vector3d withoutNeckShift(const double* femur, const Vector3d& x) {
+  using Jet = ceres::Jet<double, 1>;
+  const Vector3d shift = neckShift(femur);
+  if (shift.isZero(0)) return x;
+  const auto imbalance = [&](double at) {
+    const Jet w(at, 0);
+    const Jet gap = w - neckWeight<Jet>(x.cast<Jet>() - w * shift.cast<Jet>());
+    return ValueAndSlope{gap.a, gap.v[0]};
+  };
+  if (imbalance(0).value >= 0) return x;
+  return x - bracketedRoot(0, 1, imbalance) * shift;
+}
+
 Vector3d undeformLimb(int bone, const double* limb, const Vector3d& p) {
   const LimbReference& r = limbReference(bone);
   const double u = axialCoordinate(bone, r, limb, p), cross = crossScale(r, limb, u);
-  Vector3d x = bone == kFemur ? withoutVarus(r, limb, u, p) : p;
+  Vector3d x = withoutBends<double>(bone, r, limb, u, p);
   const Eigen::Vector2d c = cross * shaftAxis(r, u);
   const Vector3d axis{c.x(), 0, c.y()};
-  x = axis + turned(Vector3d::UnitY(), limb[kTorsion] * torsionShare(r, u), x - axis);
-  if (bone == kFemur) x = turned(Vector3d::UnitX(), -limb[kNeckShaft] * neckShare(r, u), x);
-  return {x.x() / cross, -u, x.z() / cross};
+  x = axis + rotationAbout<double>(Vector3d::UnitY(), limb[kTorsion] * torsionShare(r, u)) * Vector3d{x - axis};
+  if (bone == kFemur) x = turnedBack(neckShaftBend(limb, u), x);
+  const Vector3d straight{x.x() / cross, -u, x.z() / cross};
+  return bone == kFemur ? withoutNeckShift(limb, straight) : straight;
 }
 
 /// Inverse of hollowDepth().

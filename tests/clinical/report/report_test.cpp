@@ -160,7 +160,7 @@ TEST_F(CaseReport, ExamTableShowsBothSimulationsAndWhyATestIsMissing) {
       right = true;
       EXPECT_NE(row[4], row[5]) << "short hamstrings must change the simulated angle: " << rowText(row);
       EXPECT_LT(std::abs(std::stod(row[6])), 2.0) << rowText(row);
-      EXPECT_EQ(row[7], numberText(50 * 58 / 75.0));
+      EXPECT_EQ(row[7], numberText(50 * 58 / 73.0));
     }
   }
   EXPECT_TRUE(right && left);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/angle.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/fit/landmark_protocol.h"

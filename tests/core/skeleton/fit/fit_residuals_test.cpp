@@ -32,6 +32,11 @@ class FitResiduals : public testing::Test {
   Eigen::VectorXd z = Eigen::VectorXd::Zero(body.count());
   std::vector<int> landmarks, all;
   std::vector<View> views = test::coneBeamPair();
+
+  /// A model of one exposure and exact views.
+  FitModel modelOf(const std::vector<FitView>& fit_views, const Nuisances& nuisances) const {
+    return {skeleton, body, fit_views, nuisances, landmarks, {0, 0.9, 0}};
+  }
 };
 
 TEST_F(FitResiduals, TheMeanBodyHasTheMeanShape) {
@@ -73,14 +78,16 @@ TEST_F(FitResiduals, AutomaticDerivativesOfPointsAgreeWithDifferences) {
   }
 }
 
-TEST_F(FitResiduals, SightingResidualIsObservedMinusProjectedInSigmas) {
+TEST_F(FitResiduals, ResidualsAreObservedMinusProjectedInSigmas) {
   const Orthographic film{.column_spacing_m = 0.001, .row_spacing_m = 0.001, .u0_px = 100, .v0_px = 200};
-  View view{.projection = film};
-  SharedBody shared{skeleton, body, landmarks, all, z};
+  const std::vector<FitView> films = exactViews(std::vector<View>{View{.projection = film}});
+  const Nuisances none{skeleton, body, films, {}, all};
+  const FitModel model = modelOf(films, none);
+  SharedBody shared{model, all, z, {}, false};
   shared.PrepareForEvaluation(false, true);
-  const Eigen::Vector3d p_W = shared.points().p_W[1];
+  const Eigen::Vector3d p_W = shared.points(0).p_W[1];
   const Eigen::Vector2d uv{100 + 1000 * p_W.x() + 6, 200 + 1000 * p_W.y() - 3};
-  const SightingCost cost{shared, 1, view, uv, 3};
+  const LandmarkCost cost{shared, 1, {{0, uv}}, 9 * Eigen::Matrix2d::Identity()};
   const double* x[] = {shared.x()};
   double residual[2];
   ASSERT_TRUE(cost.Evaluate(x, residual, nullptr));
@@ -88,17 +95,49 @@ TEST_F(FitResiduals, SightingResidualIsObservedMinusProjectedInSigmas) {
   EXPECT_NEAR(residual[1], -1, 1e-9);
 }
 
-TEST_F(FitResiduals, SightingGradientAgreesWithDifferences) {
-  SharedBody shared{skeleton, body, landmarks, all, z};
-  const SightingCost cost{shared, 2, views[1], {1400, 3000}, 2};
+TEST_F(FitResiduals, WhatAllSightingsHaveInCommonCountsOnce) {
+  // Both views miss the point by the same 6 px for one reason: one sigma, not two.
+  const Orthographic film{.column_spacing_m = 0.001, .row_spacing_m = 0.001};
+  const std::vector<FitView> films = exactViews(std::vector<View>(2, View{.projection = film}));
+  const Nuisances none{skeleton, body, films, {}, all};
+  const FitModel model = modelOf(films, none);
+  SharedBody shared{model, all, z, {}, false};
+  shared.PrepareForEvaluation(false, true);
+  const Eigen::Vector3d p_W = shared.points(0).p_W[1];
+  const Eigen::Vector2d uv{1000 * p_W.x() + 6, 1000 * p_W.y()};
+  Eigen::Matrix4d covariance = 1e-6 * Eigen::Matrix4d::Identity();
+  for (const int i : {0, 1})
+    for (const int k : {0, 1})
+      for (const int c : {0, 1}) covariance(2 * i + c, 2 * k + c) += 36;
+  const LandmarkCost cost{shared, 1, {{0, uv}, {1, uv}}, covariance};
   const double* x[] = {shared.x()};
-  std::vector<double> jacobian(2 * all.size());
-  double residual[2], *jacobians[] = {jacobian.data()};
+  Eigen::Vector4d residual;
+  ASSERT_TRUE(cost.Evaluate(x, residual.data(), nullptr));
+  EXPECT_NEAR(residual.norm(), 1, 1e-6);
+}
+
+TEST_F(FitResiduals, GradientsAgreeWithDifferences) {
+  // Every kind of unknown: body, movement of body and joints before the second view, errors of the geometry.
+  std::vector<FitView> fit_views = exactViews(views);
+  std::get<ConeBeam>(fit_views[1].view.projection).k1 = 0.05;
+  fit_views[1].exposure = 1;
+  fit_views[1].uncertainty = {0.01, 3, 0.02, 0.02, 0.03, 0.05};
+  const Nuisances nuisances{skeleton, body, fit_views, {}, all};
+  EXPECT_EQ(nuisances.count(), 6 + 14 + 1 + kViewErrors);
+  const FitModel model = modelOf(fit_views, nuisances);
+  Eigen::VectorXd y(nuisances.count());
+  for (int i = 0; i < y.size(); ++i) y[i] = std::sin(1.0 + i);
+  SharedBody shared{model, all, z, y, true};
+  const LandmarkCost cost{shared, 2, {{0, {1400, 3000}}, {1, {1400, 3000}}}, 4 * Eigen::Matrix4d::Identity()};
+  const double* x[] = {shared.x()};
+  const auto size = static_cast<std::size_t>(shared.size());
+  std::vector<double> jacobian(4 * size);
+  double residual[4], *jacobians[] = {jacobian.data()};
   shared.PrepareForEvaluation(true, true);
   ASSERT_TRUE(cost.Evaluate(x, residual, jacobians));
   constexpr double kStep = 1e-5;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    double ahead[2], behind[2];
+  for (std::size_t i = 0; i < size; ++i) {
+    double ahead[4], behind[4];
     shared.x()[i] += kStep;
     shared.PrepareForEvaluation(false, true);
     cost.Evaluate(x, ahead, nullptr);
@@ -106,17 +145,20 @@ TEST_F(FitResiduals, SightingGradientAgreesWithDifferences) {
     shared.PrepareForEvaluation(false, true);
     cost.Evaluate(x, behind, nullptr);
     shared.x()[i] += kStep;
-    for (std::size_t r = 0; r < 2; ++r)
-      EXPECT_NEAR(jacobian[r * all.size() + i], (ahead[r] - behind[r]) / (2 * kStep), 1e-3)
+    for (std::size_t r = 0; r < 4; ++r)
+      EXPECT_NEAR(jacobian[r * size + i], (ahead[r] - behind[r]) / (2 * kStep), 1e-3)
           << i;  // of some hundred sigma per SD
   }
 }
 
 TEST_F(FitResiduals, APointBehindTheSourceRefusesTheStep) {
   test::placeView(views[0], -Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY(), {-5, 0.5, 0});  // looks away
-  SharedBody shared{skeleton, body, landmarks, all, z};
+  const std::vector<FitView> fit_views = exactViews(views);
+  const Nuisances none{skeleton, body, fit_views, {}, all};
+  const FitModel model = modelOf(fit_views, none);
+  SharedBody shared{model, all, z, {}, false};
   shared.PrepareForEvaluation(false, true);
-  const SightingCost cost{shared, 0, views[0], {0, 0}, 1};
+  const LandmarkCost cost{shared, 0, {{0, {0, 0}}}, Eigen::Matrix2d::Identity()};
   const double* x[] = {shared.x()};
   double residual[2];
   EXPECT_FALSE(cost.Evaluate(x, residual, nullptr));

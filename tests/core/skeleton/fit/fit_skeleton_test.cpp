@@ -33,7 +33,7 @@ class FitSkeleton : public testing::Test {
     return test::observe(skeleton, shape, posture, views, protocol, noise_mm, random);
   }
   SkeletonFit fit(const std::vector<LandmarkObservation>& observations, const Job& job = {}) {
-    return fitSkeleton(skeleton, views, observations, priors, {}, job);
+    return fitSkeleton(skeleton, exactViews(views), observations, priors, {}, job);
   }
   void draw(unsigned seed) {
     std::mt19937_64 body{seed};
@@ -322,7 +322,7 @@ TEST_F(FitSkeleton, ReportsProgressAndStopsWhenAsked) {
 
 TEST_F(FitSkeleton, TooFewIterationsAreSaidAndCarryNoNumbers) {
   draw(11);
-  const SkeletonFit result = fitSkeleton(skeleton, views, seen(1.0), priors, {.max_iterations = 1});
+  const SkeletonFit result = fitSkeleton(skeleton, exactViews(views), seen(1.0), priors, {.max_iterations = 1});
   EXPECT_EQ(result.outcome, Outcome::NotConverged);
   EXPECT_TRUE(std::isnan(result.rms_px));
   EXPECT_TRUE(result.figures.empty());

@@ -68,15 +68,26 @@ TEST(BodyDescription, FlatAndNestedFieldsAreTheSame) {
 TEST(BodyDescription, ReadsEveryParameterInItsOwnUnit) {
   for (const auto& parameter : shapeParameterNames()) {
     const auto reference = toVector(ShapeParameters{});
-    auto values = reference;
     const std::size_t i =
         std::size_t(std::ranges::find(shapeParameterNames(), parameter) - shapeParameterNames().begin());
-    const bool angle = reference[i] == 0;
-    values[i] = angle ? 10 * kDeg : 1.25;
-    const BodyDescription body = read("{\"" + parameter + (angle ? "_deg\": 10}" : "\": 1.25}"));
-    EXPECT_EQ(body.shape, shapeFromVector(values)) << parameter;
-    if (angle) {
-      EXPECT_EQ(toVector(read("{\"" + parameter + "_rad\": 0.1}").shape)[i], 0.1) << parameter;
+    const auto given = [&](const std::string& unit, const std::string& number) {
+      return toVector(read("{\"" + parameter + unit + "\": " + number + "}").shape)[i];
+    };
+    switch (shapeUnit(parameter)) {
+      case ShapeUnit::Ratio:
+        EXPECT_EQ(reference[i], 1) << parameter;
+        EXPECT_EQ(given("", "1.25"), 1.25) << parameter;
+        break;
+      case ShapeUnit::Angle:
+        EXPECT_EQ(reference[i], 0) << parameter;
+        EXPECT_NEAR(given("_deg", "10"), 10 * kDeg, 1e-15) << parameter;
+        EXPECT_EQ(given("_rad", "0.1"), 0.1) << parameter;
+        break;
+      case ShapeUnit::Length:
+        EXPECT_EQ(reference[i], 0) << parameter;
+        EXPECT_NEAR(given("_mm", "12"), 0.012, 1e-15) << parameter;
+        EXPECT_EQ(given("_m", "0.012"), 0.012) << parameter;
+        break;
     }
   }
 }
@@ -97,7 +108,8 @@ TEST(BodyDescription, SavedAndLoadedIsTheSame) {
   const test::TemporaryFolder folder;
   BodyDescription body = read(R"({
     "name": "test", "about": "for a test", "age_years": 9, "pelvis.width": 1.1, "trunk": {"elongation": 0.9, "bend_deg": 12, "mass": 1.2},
-    "femur": {"elongation": 1.3, "neck_shaft_deg": 5}, "tibia_r": {"torsion_deg": 7}, "tibia_l": {"torsion_deg": -7},
+    "femur": {"elongation": 1.3, "neck_shaft_deg": 5}, "tibia_r": {"torsion_deg": 7}, "tibia_l": {"torsion_deg": -7, "varus_deg": 12},
+    "hip_l": {"lateral_mm": 15, "superior_mm": 8}, "femur_r.neck_length_mm": -12, "femur_l.bow_sagittal_deg": 9,
     "hand_l.scale": 0.7, "ulna": {"mass_ratio": 1.4}, "humerus_l.mass": 0.6,
     "strength": {"quadriceps": 0.8, "soleus_medial_r": 1.5}, "sources": {"femur.elongation": "a guess"}})");
   saveBodyDescription(body, folder.path() / "body.json");
@@ -113,7 +125,9 @@ TEST(BodyDescription, WrongNamesAreAnsweredWithTheNearest) {
   EXPECT_THAT(complaint(R"({"femur": {"elongaton": 1}})"),
               AllOf(HasSubstr("'femur.elongaton'"), HasSubstr("nearest: femur.elongation")));
   EXPECT_THAT(complaint(R"({"femur.torsion": 10})"), HasSubstr("femur.torsion_deg"));  // an angle without a unit
-  EXPECT_THAT(complaint(R"({"tibia.varus_deg": 1})"), HasSubstr("expected a field of a body"));
+  EXPECT_THAT(complaint(R"({"humerus.varus_deg": 1})"), HasSubstr("expected a field of a body"));
+  EXPECT_THAT(complaint(R"({"hip_r.lateral": 10})"), HasSubstr("hip_r.lateral_mm"));  // a length without a unit
+  EXPECT_THAT(complaint(R"({"hip_r.lateral_deg": 10})"), HasSubstr("hip_r.lateral_mm"));
   EXPECT_THAT(complaint(R"({"patella.mass": 1})"), HasSubstr("expected a field of a body"));
   EXPECT_THAT(complaint(R"({"sources": {"femrus": "x"}})"), HasSubstr("femur"));
 }
@@ -135,6 +149,26 @@ TEST(BodyDescription, TheSameThingTwiceIsRefused) {
   EXPECT_THAT(complaint(R"({"femur_r": {"elongation": 1}, "femur_r.elongation": 2})"), HasSubstr("a second one"));
   EXPECT_THAT(complaint(R"({"femur": {"torsion_deg": 1, "torsion_rad": 0.1}})"), HasSubstr("a second one"));
   EXPECT_THAT(complaint(R"({"femur": {"mass": 1, "mass_ratio": 2}})"), HasSubstr("a second one"));
+}
+
+TEST(ShapeJson, OlderFilesWithoutTheBendsOfTheLegsStillLoadAndMeanNone) {
+  ShapeParameters shape;
+  shape.sides[0].femur.varus_rad = 0.2;
+  shape.sides[1].tibia.elongation = 0.9;
+  Json json = shapeToJson(shape);
+  for (const std::string side : {"r", "l"})
+    for (const char* later : {"femur.procurvatum_rad", "femur.neck_length_m", "femur.neck_varus_rad",
+                              "femur.neck_retroversion_rad", "femur.bow_frontal_rad", "femur.bow_sagittal_rad",
+                              "tibia.varus_rad", "tibia.procurvatum_rad", "tibia.distal_varus_rad",
+                              "tibia.distal_procurvatum_rad", "hip.lateral_m", "hip.superior_m", "hip.anterior_m"}) {
+      std::string name = later;
+      name.insert(name.find('.'), "_" + side);
+      ASSERT_EQ(json.erase(name), 1u) << name;
+    }
+  EXPECT_EQ(json.size(), 48u);  // what the first files had
+  EXPECT_EQ(shapeFromJson(JsonReader{json, "old.json"}), shape);
+  json.erase("femur_r.varus_rad");
+  EXPECT_THROW(shapeFromJson(JsonReader{json, "old.json"}), InputError);
 }
 
 TEST(ShapePresets, AreThePapersTable) {
