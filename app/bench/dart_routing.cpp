@@ -5,6 +5,7 @@
 
 #include "core/muscle/muscle_path.h"
 #include "core/retarget/prepared/reference.h"
+#include "core/retarget/routing/routing.h"
 
 namespace sinew {
 

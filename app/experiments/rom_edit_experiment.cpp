@@ -22,7 +22,7 @@ std::vector<RomEdits> experimentEdits() {
 RomEditSolver romEditSolver(const Model& reference, const std::filesystem::path& resource_dir,
                             std::string_view preset) {
   const RomPreset data = loadRomPreset(resource_dir, preset, reference.skeleton);
-  const RomNorms norms = loadRomNorms(resource_dir, reference.skeleton);
+  const ClinicalTests norms = loadClinicalTests(resource_dir, reference.skeleton);
   return {reference, sampledPoseSet(reference.skeleton, data, norms.tests)};
 }
 

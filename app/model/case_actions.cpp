@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "clinical/pipeline/side_check.h"
+
 namespace sinew {
 namespace {
 
@@ -49,6 +51,11 @@ void removeSighting(Case& c, std::string_view name, int view) {
   if (const auto found = sightingIn(c.sightings, name, view); found != c.sightings.end()) c.sightings.erase(found);
 }
 
+void exchangeSides(Case& c) {
+  applyExchange(c.sightings, c.exchanged_sides);
+  c.exchanged_sides.clear();
+}
+
 double typicalSigma_px(const Case& c) {
   if (c.sightings.empty()) return 1.0;
   std::vector<double> sigmas;
@@ -72,7 +79,7 @@ const ExamEntry* findExamEntry(const Case& c, std::string_view test, char side) 
   return found == entries.end() ? nullptr : &*found;
 }
 
-void setMeasured(Case& c, const ExamProtocol& protocol, const std::string& test, char side,
+void setMeasured(Case& c, const ClinicalTests& protocol, const std::string& test, char side,
                  std::optional<double> measured_deg) {
   entryOf(c, test, side).measured_deg = measured_deg;
   dropEmptyEntries(c);

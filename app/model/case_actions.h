@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clinical/case/case.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
@@ -19,6 +19,9 @@ const Sighting* findSighting(const Case& c, std::string_view name, int view);
 void setSighting(Case& c, const std::string& name, int view, const Eigen::Vector2d& uv_px, double sigma_px);
 void removeSighting(Case& c, std::string_view name, int view);
 
+/// Gives the picks that were found exchanged the names of the other side.
+void exchangeSides(Case& c);
+
 /// The usual placement error of this case: median of its sightings' sigma, 1 px without any.
 double typicalSigma_px(const Case& c);
 
@@ -29,7 +32,7 @@ std::vector<std::string> landmarkNames(const Case& c, const std::vector<std::str
 const ExamEntry* findExamEntry(const Case& c, std::string_view test, char side);
 
 /// @throws InputError if the value is outside what the test can give: test, expected range, found.
-void setMeasured(Case& c, const ExamProtocol& protocol, const std::string& test, char side,
+void setMeasured(Case& c, const ClinicalTests& protocol, const std::string& test, char side,
                  std::optional<double> measured_deg);
 void setExamNote(Case& c, const std::string& test, char side, const std::string& note);
 /// nullopt: the protocol's own threshold. @throws InputError unless 1 <= threshold <= 200 N m.

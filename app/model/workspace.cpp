@@ -53,8 +53,8 @@ std::shared_ptr<const RetargetReference> Workspace::retargeting() {
   return retargeting_;
 }
 
-const ExamProtocol& Workspace::protocol() {
-  if (!protocol_) protocol_ = loadExamProtocol(resource_dir_);
+const ClinicalTests& Workspace::protocol() {
+  if (!protocol_) protocol_ = loadClinicalTests(resource_dir_);
   return *protocol_;
 }
 

@@ -10,7 +10,7 @@
 #include "app/model/stage_runner.h"
 #include "app/model/view_state.h"
 #include "clinical/report/norms.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
@@ -38,7 +38,7 @@ class Workspace : public QObject {
   /// What musculatures are retargeted from, made at the first call (a second); from any thread. @throws InputError.
   std::shared_ptr<const RetargetReference> retargeting();
   /// The forms of the examination. GUI thread. @throws InputError.
-  const ExamProtocol& protocol();
+  const ClinicalTests& protocol();
   /// Titles and conventions of the figures. GUI thread. @throws InputError.
   const NormTable& norms();
   /// The patient's model as far as the case has got; nullptr before the skeleton is fitted. Kept until the results it
@@ -73,7 +73,7 @@ class Workspace : public QObject {
   std::shared_ptr<const Model> reference_;
   std::mutex retargeting_mutex_;
   std::shared_ptr<const RetargetReference> retargeting_;
-  std::optional<ExamProtocol> protocol_;
+  std::optional<ClinicalTests> protocol_;
   std::optional<NormTable> norms_;
   std::string patient_model_key_;
   std::shared_ptr<const Model> patient_model_;

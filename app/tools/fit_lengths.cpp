@@ -16,11 +16,11 @@ void fitAndWrite(const std::filesystem::path& resources, const std::filesystem::
   const Skeleton skeleton = loadReferenceSkeleton(resources);
   const Musculature published = loadPublishedMusculature(resources, skeleton);
   const RomPreset preset = loadRomPreset(resources, name, skeleton);
-  const PresetFit fit = fitPreset(skeleton, published, preset, loadRomNorms(resources, skeleton));
+  const PresetFit fit = fitPreset(skeleton, published, preset, loadClinicalTests(resources, skeleton));
   std::printf("%s: %d rounds over the tests\n", name.c_str(), fit.rounds);
   const auto targets = preset.targets();
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const RomReading& r = fit.readings[i];
+    const SimulatedTest& r = fit.readings[i];
     std::printf("  %-20s reads %7.1f  %6.1f N m  %s\n", r.test.c_str(), r.angle_deg, r.moment_Nm,
                 r.limited_by.empty() ? "" : r.limited_by.front().c_str());
   }

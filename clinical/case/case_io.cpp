@@ -115,6 +115,7 @@ Sighting sightingFromJson(const JsonReader& json) {
 Json resultsToJson(const Case& c) {
   return {{"rig", optionalToJson(c.rig, rigToJson)},
           {"landmarks", optionalToJson(c.landmarks, triangulationToJson)},
+          {"exchanged_sides", exchangesToJson(c.exchanged_sides)},
           {"skeleton", optionalToJson(c.skeleton, skeletonFitToJson)},
           {"musculature", optionalToJson(c.musculature, referenceToJson)},
           {"model", optionalToJson(c.model, referenceToJson)},
@@ -123,9 +124,10 @@ Json resultsToJson(const Case& c) {
 }
 
 void readResults(const JsonReader& json, Case& c) {
-  json.allowOnly({"rig", "landmarks", "skeleton", "musculature", "model", "exam_fit", "report"});
+  json.allowOnly({"rig", "landmarks", "exchanged_sides", "skeleton", "musculature", "model", "exam_fit", "report"});
   c.rig = optionalFromJson<BiplanarRig>(json, "rig", rigFromJson);
   c.landmarks = optionalFromJson<Triangulation>(json, "landmarks", triangulationFromJson);
+  if (const auto exchanges = json.find("exchanged_sides")) c.exchanged_sides = exchangesFromJson(*exchanges);
   c.skeleton = optionalFromJson<SkeletonFit>(json, "skeleton", skeletonFitFromJson);
   c.musculature = optionalFromJson<FileReference>(json, "musculature", referenceFromJson);
   c.model = optionalFromJson<FileReference>(json, "model", referenceFromJson);

@@ -1,263 +1,267 @@
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <numeric>
 
-#include "clinical/exam/physical_exam.h"
-#include "core/angle.h"
-#include "core/ceres_job_internal.h"
-#include "core/rom/tests/exam_sweep.h"
+#include "clinical/exam/exam_problem_internal.h"
+#include "clinical/exam/examiner.h"
+#include "core/rom/tests/threshold.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kReferenceMass_kg = 75;  // thresholds are stated for this body
-constexpr double kLeastFactor = 0.6, kMostFactor = 1.4;
-constexpr double kFactorPrior = 0.3;  // SD of the weak pull to 1: moves a measured angle by less than 0.5 deg
-constexpr double kUnchanged = 1e-4;   // a factor nearer to 1 than this is no change
+constexpr double kUnchanged = 1e-4;                         // a factor nearer to 1 than this is no change
+constexpr std::string_view kAdultPreset = "average-adult";  // whose norms an adult patient has
 
-/// A test that was measured on one side, ready to be simulated for any lengths.
-struct MeasuredTest {
-  const ExamTest* test;
-  double measured_deg;
-  double threshold_Nm;
-  ExamSweep sweep;
-};
-
-/// A group of units whose common length factor is an unknown.
-struct FreeGroup {
-  const LengthGroup* group;
-  std::vector<int> units;
-};
-
-std::map<int, double> factorsByUnit(const std::vector<FreeGroup>& groups, const double* factors) {
-  std::map<int, double> by_unit;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const int unit : groups[g].units) by_unit[unit] = factors[g];
-  return by_unit;
+const ExamEntry* entryOf(const PhysicalExam& exam, const ClinicalTest& test, char side) {
+  for (const ExamEntry& e : exam.entries)
+    if (e.side == side && (e.test == test.id || std::ranges::count(test.aliases, e.test) > 0)) return &e;
+  return nullptr;
 }
 
-/// One residual a measured test: (simulated - measured) / SD [-], in written degrees. Beyond the joint's stop the
-/// muscles' own angle counts, unless the measurement is the stop itself; then muscles that hold later are right.
-class ExamResiduals {
- public:
-  ExamResiduals(const std::vector<MeasuredTest>& tests, const std::vector<FreeGroup>& groups)
-      : tests_{tests}, groups_{groups} {}
+/// What is known about one side before anything is solved.
+struct Side {
+  char side;
+  std::vector<const ClinicalTest*> form;
+  const std::vector<ClinicalSweep>* sweeps;  ///< by row of the form
+  std::vector<const ExamEntry*> entry;       ///< by row; nullptr: none
+  std::vector<double> threshold_Nm;          ///< by row
+  std::vector<TestNorm> norm;                ///< by row
+  std::vector<FreeGroup> groups;             ///< that measured tests may change
+  std::vector<MeasuredTest> measured;        ///< those tests
+  std::vector<std::size_t> row;              ///< of every measured test
+};
 
-  bool operator()(double const* const* factors, double* residuals) const {
-    const auto by_unit = factorsByUnit(groups_, factors[0]);
-    for (std::size_t i = 0; i < tests_.size(); ++i) {
-      const MeasuredTest& t = tests_[i];
-      const double angle_rad = t.sweep.freeAngle_rad(t.threshold_Nm, by_unit);
-      const double past_stop_rad = (angle_rad - t.sweep.stop_rad()) * t.sweep.direction();
-      const double stop_deg = t.sweep.written_deg(t.sweep.stop_rad());
-      constexpr double kAtStop_deg = 0.5;
-      const bool measured_at_stop = std::abs(t.measured_deg - stop_deg) < kAtStop_deg;
-      residuals[i] = past_stop_rad > 0 && measured_at_stop
-                         ? 0
-                         : (t.sweep.written_deg(angle_rad) - t.measured_deg) / t.test->measurement_sd_deg;
-    }
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      residuals[tests_.size() + g] = (factors[0][g] - 1) / kFactorPrior;
-    return true;
+FreeGroup freeGroup(const Model& model, const LengthGroup& group, char side) {
+  FreeGroup free{.group = &group, .units = {}};
+  double length_m = 0, fiber_m = 0;
+  for (const auto& name : group.units) {
+    free.units.push_back(model.musculature.unitIndex(name + "_" + side));
+    const auto& unit = model.musculature.units[std::size_t(free.units.back())];
+    length_m += unit.optimal_fiber_length_m + unit.tendon_slack_length_m;
+    fiber_m += unit.optimal_fiber_length_m;
   }
+  free.mean_length_m = length_m / double(group.units.size());
+  free.mean_fiber_share = fiber_m / length_m;
+  return free;
+}
 
- private:
-  const std::vector<MeasuredTest>& tests_;
-  const std::vector<FreeGroup>& groups_;
-};
-
-std::vector<FreeGroup> freeGroups(const Model& model, const ExamProtocol& protocol,
-                                  const std::vector<MeasuredTest>& tests, char side) {
-  std::vector<FreeGroup> groups;
-  for (const auto& group : protocol.groups) {
-    const bool tested = std::ranges::any_of(
-        tests, [&](const MeasuredTest& t) { return std::ranges::count(t.test->muscle_groups, group.name) > 0; });
-    if (!tested) continue;
-    groups.push_back({&group, {}});
-    for (const auto& unit : group.units)
-      groups.back().units.push_back(model.musculature.unitIndex(unit + "_" + side));
+/// Groups of every measured test, and the tests with them.
+void gatherMeasured(const Model& model, const ClinicalTests& tests, Side& s) {
+  const auto counts = [&](std::size_t i) {
+    return s.entry[i] && s.entry[i]->measured_deg && !s.form[i]->form->groups.empty();
+  };
+  for (const auto& group : tests.groups)
+    for (std::size_t i = 0; i < s.form.size(); ++i)
+      if (counts(i) && std::ranges::count(s.form[i]->form->groups, group.name) > 0) {
+        s.groups.push_back(freeGroup(model, group, s.side));
+        break;
+      }
+  for (std::size_t i = 0; i < s.form.size(); ++i) {
+    if (!counts(i)) continue;
+    MeasuredTest m{.test = s.form[i], .sweep = &(*s.sweeps)[i], .threshold_Nm = s.threshold_Nm[i], .norm = s.norm[i]};
+    m.measured_deg = *s.entry[i]->measured_deg;
+    m.measured_place = m.sweep->placeOf_deg(m.test->form->angle_deg(m.measured_deg));
+    for (const auto& name : m.test->form->groups)
+      m.groups.push_back(
+          int(std::ranges::find_if(s.groups, [&](const FreeGroup& g) { return g.group->name == name; }) -
+              s.groups.begin()));
+    s.measured.push_back(std::move(m));
+    s.row.push_back(i);
   }
-  return groups;
 }
 
-double thresholdOf(const ExamTest& test, const ExamEntry* entry, double mass_kg) {
-  return entry && entry->threshold_Nm ? *entry->threshold_Nm : test.threshold_Nm * mass_kg / kReferenceMass_kg;
-}
-
-const ExamEntry* entryOf(const PhysicalExam& exam, const std::string& test, char side) {
-  const auto found =
-      std::ranges::find_if(exam.entries, [&](const ExamEntry& e) { return e.test == test && e.side == side; });
-  return found == exam.entries.end() ? nullptr : &*found;
+Side sideOf(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests, const ExamSubject& subject,
+            char side, const std::vector<ClinicalSweep>& sweeps) {
+  Side s{.side = side, .form = tests.form(), .sweeps = &sweeps};
+  const NormGroup who{std::string{kAdultPreset}, subject.age_y, subject.sex};
+  for (const ClinicalTest* test : s.form) {
+    s.entry.push_back(entryOf(exam, *test, side));
+    const ExamEntry* entry = s.entry.back();
+    s.threshold_Nm.push_back(entry && entry->threshold_Nm ? *entry->threshold_Nm
+                                                          : scaledThreshold_Nm(*test, subject.mass_kg));
+    s.norm.push_back(normOf(*test, who));
+  }
+  gatherMeasured(model, tests, s);
+  return s;
 }
 
 struct SideFit {
   Outcome outcome = Outcome::Converged;
-  std::map<int, double> factors;
+  std::vector<ExamAim> aims;                ///< by measured test
+  std::vector<double> factors, fiber_only;  ///< by group; empty if there is no solution
+  std::vector<FactorInterval> intervals;    ///< by group; empty if there are none
 };
 
-double costOf(const ExamResiduals& residuals, std::size_t count, const std::vector<double>& factors) {
-  std::vector<double> values(count);
-  const double* blocks[] = {factors.data()};
-  residuals(blocks, values.data());
-  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-}
-
-/// Where the solver may start. A muscle that is too long to hold anywhere leaves the simulated angle at the end of
-/// the movement, without a slope to follow; so one group after the other is tried over its whole range, twice because
-/// tests share groups.
-std::vector<double> bestStart(const ExamResiduals& residuals, std::size_t residual_count, std::size_t groups) {
-  constexpr double kStep = 0.02;
-  std::vector<double> best(groups, 1.0);
-  double least = costOf(residuals, residual_count, best);
-  for (int round = 0; round < 2; ++round)
-    for (std::size_t g = 0; g < groups; ++g) {
-      auto tried = best;
-      for (double factor = kLeastFactor; factor < kMostFactor; factor += kStep) {
-        tried[g] = factor;
-        if (const double cost = costOf(residuals, residual_count, tried); cost < least) least = cost, best = tried;
-      }
-    }
-  return best;
-}
-
-SideFit solveSide(const std::vector<MeasuredTest>& tests, const std::vector<FreeGroup>& groups, char side,
-                  const Job& job, double from, double to) {
+/// Where solved factors are expected: what each group's own test asks of it alone is in its aim already.
+SideFit solve(const Side& s, bool leave_in_norm, double length_sd_m, bool with_intervals, const Job& job) {
   SideFit fit;
-  if (groups.empty()) return fit;
-  auto factors = bestStart({tests, groups}, tests.size() + groups.size(), groups.size());
-  // The angles come from a bisection (1e-7 rad): differences over 1e-4 of a length are exact to 0.1 %.
-  ceres::NumericDiffOptions differences;
-  differences.relative_step_size = 1e-4;
-  auto* cost = new ceres::DynamicNumericDiffCostFunction<ExamResiduals, ceres::CENTRAL>(
-      new ExamResiduals{tests, groups}, ceres::TAKE_OWNERSHIP, differences);
-  cost->AddParameterBlock(static_cast<int>(groups.size()));
-  cost->SetNumResiduals(static_cast<int>(tests.size() + groups.size()));
-  ceres::Problem problem;
-  problem.AddResidualBlock(cost, nullptr, factors.data());
-  for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
-    problem.SetParameterLowerBound(factors.data(), g, kLeastFactor);
-    problem.SetParameterUpperBound(factors.data(), g, kMostFactor);
+  if (s.measured.empty()) return fit;
+  SideProblem problem{.tests = &s.measured, .groups = &s.groups};
+  problem.prior_means.assign(s.groups.size(), 1.0);
+  SideProblem as_measured = problem;
+  for (const MeasuredTest& m : s.measured) {
+    fit.aims.push_back(aimOf(m, s.groups, leave_in_norm));
+    problem.places.push_back(fit.aims.back().place);
+    as_measured.places.push_back(m.measured_place);
   }
-  constexpr int kIterations = 60;
-  CeresJob monitor{job, side == 'r' ? "solving muscle lengths, right" : "solving muscle lengths, left", kIterations,
-                   from, to};
-  ceres::Solver::Options options = solverOptions(monitor, kIterations);
-  options.function_tolerance = 1e-9;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  fit.outcome = outcomeOf(summary);
-  if (fit.outcome == Outcome::Converged) fit.factors = factorsByUnit(groups, factors.data());
+  const std::vector<double> ones(s.groups.size(), 1.0);
+  const SideSolution both = solveSide(problem, ones, job);
+  fit.outcome = both.outcome;
+  fit.factors = both.factors;
+  if (!both.usable()) return fit;
+  problem.scaled = Scaled::FiberOnly;
+  fit.fiber_only = solveSide(problem, ones, job).factors;
+  if (with_intervals) fit.intervals = factorIntervals(as_measured, both.factors, length_sd_m, job);
+  if (job.cancelled()) fit.outcome = Outcome::Cancelled;
   return fit;
 }
 
-std::vector<LengthChange> changesOf(const Model& model, const ExamProtocol& protocol, const ExamTest& test, char side,
-                                    const std::map<int, double>& factors) {
+std::vector<LengthChange> changesOf(const ClinicalTests& tests, const ClinicalTest& test, char side,
+                                    const std::map<std::string, double>& factors) {
   std::vector<LengthChange> changes;
-  for (const auto& name : test.muscle_groups)
-    for (const auto& unit : protocol.group(name).units) {
-      const int index = model.musculature.unitIndex(unit + "_" + side);
-      const auto factor = factors.find(index);
+  for (const auto& name : test.form->groups)
+    for (const auto& unit : tests.group(name).units) {
+      const auto factor = factors.find(unit + "_" + side);
       changes.push_back({unit + "_" + side, factor == factors.end() ? 1.0 : factor->second});
     }
   return changes;
 }
 
-/// Every test of the protocol on one side, tabulated once.
-std::vector<ExamSweep> sweepsOf(const Model& model, const ExamProtocol& protocol, char side, const Job& job,
-                                double from) {
-  std::vector<ExamSweep> sweeps;
-  for (const auto& test : protocol.tests) {
-    if (job.cancelled()) break;
-    job.report(from + 0.2 * double(sweeps.size()) / double(protocol.tests.size()),
-               "simulating " + test.title + (side == 'r' ? ", right" : ", left"));
-    sweeps.emplace_back(model, test, side);
-  }
-  return sweeps;
-}
-
-ExamComparison compare(const Model& model, const ExamProtocol& protocol, const ExamTest& test, const ExamSweep& sweep,
-                       char side, const ExamEntry* entry, double mass_kg, const SideFit& fit) {
-  ExamComparison line;
-  line.test = test.id;
-  line.side = side;
-  line.threshold_Nm = thresholdOf(test, entry, mass_kg);
-  const SimulatedTest after = sweep.simulate(line.threshold_Nm, fit.factors);
-  line.simulated_before_deg = sweep.simulate(line.threshold_Nm).angle_deg;
-  if (fit.outcome == Outcome::Converged) line.simulated_after_deg = after.angle_deg;
-  if (entry && entry->measured_deg) {
-    line.measured_deg = entry->measured_deg;
-    line.residual_deg = *entry->measured_deg - line.simulated_after_deg;
-  }
-  line.stopped_by_joint = after.stopped_by_joint;
-  line.limiting_muscles = after.limiting_muscles;
-  line.changed = changesOf(model, protocol, test, side, fit.factors);
-  return line;
+std::string comparedOnly(const ClinicalTest& test, const SimulatedTest& after) {
+  std::string text = "compared only: no muscle length is fitted to it (" + test.limited_by + ")";
+  if (!after.limited_by.empty()) text += "; on the model it ends at " + after.limited_by.front();
+  return text;
 }
 
 /// A measurement that no choice of lengths could meet: said, not left to be found in a table.
-void warnIfUnmet(const ExamTest& test, const ExamComparison& line, Warnings& warnings) {
-  if (!line.measured_deg || !(std::abs(line.residual_deg) > test.measurement_sd_deg)) return;
+void warnIfUnmet(const ClinicalTest& test, const ExamComparison& line, Warnings& warnings) {
+  if (!line.measured_deg || !(std::abs(line.residual_deg) > test.form->measurement_sd_deg)) return;
   char text[96];
-  std::snprintf(text, sizeof text, " (%s): measured %.0f deg, the fitted model gives %.0f deg%s",
-                line.side == 'r' ? "right" : "left", *line.measured_deg, line.simulated_after_deg,
-                line.stopped_by_joint ? " (the joint's own stop)" : "");
-  warnings.push_back({"exam_not_met", test.title + text + "; muscle lengths alone cannot explain it"});
+  std::snprintf(text, sizeof text, " (%s): measured %.0f deg, the fitted model gives %.0f deg",
+                line.side == 'r' ? "right" : "left", *line.measured_deg, line.simulated_after_deg);
+  warnings.push_back({"exam_not_met", test.title + text + ": " + line.reason});
 }
 
-/// Solves one side and appends its lines to the result.
-void applySide(const Model& model, const PhysicalExam& exam, const ExamProtocol& protocol, double mass_kg, char side,
-               const Job& job, ExamFit& result) {
-  const double from = side == 'r' ? 0 : 0.5;
-  const std::vector<ExamSweep> sweeps = sweepsOf(model, protocol, side, job, from);
-  if (job.cancelled()) {
-    result.outcome = Outcome::Cancelled;
-    return;
+void addGroups(const ClinicalTests& tests, const Side& s, const SideFit& fit, ExamFit& result) {
+  for (const auto& group : tests.groups) {
+    GroupFactor row{.group = group.name, .side = s.side};
+    const auto found = std::ranges::find_if(s.groups, [&](const FreeGroup& g) { return g.group == &group; });
+    if (found != s.groups.end() && !fit.factors.empty()) {
+      const auto g = std::size_t(found - s.groups.begin());
+      row.tested = true;
+      row.factor = fit.factors[g];
+      if (!fit.fiber_only.empty()) row.fiber_only_factor = fit.fiber_only[g];
+      if (!fit.intervals.empty()) {
+        // What was left at the norm, or faded, lies inside: the interval is that of the measurements themselves.
+        row.lower95 = std::min(fit.intervals[g].lower, row.factor);
+        row.upper95 = std::max(fit.intervals[g].upper, row.factor);
+        row.determined = fit.intervals[g].determined;
+      }
+      for (const int unit : found->units) {
+        const auto k = std::size_t(std::ranges::find(found->units, unit) - found->units.begin());
+        if (std::abs(row.factor - 1) > kUnchanged) result.length_factors[group.units[k] + "_" + s.side] = row.factor;
+      }
+      if (row.factor < kLeastFactor + 1e-3 || row.factor > kMostFactor - 1e-3)
+        result.warnings.push_back({"length_factor_at_bound", group.title + (s.side == 'r' ? ", right" : ", left") +
+                                                                 ": length factor at its bound; muscle lengths alone "
+                                                                 "cannot meet this examination"});
+    }
+    result.groups.push_back(row);
   }
-  std::vector<MeasuredTest> measured;
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    const ExamTest& test = protocol.tests[i];
-    const ExamEntry* entry = entryOf(exam, test.id, side);
-    if (entry && entry->measured_deg)
-      measured.push_back({&test, *entry->measured_deg, thresholdOf(test, entry, mass_kg), sweeps[i]});
-  }
-  const SideFit fit =
-      solveSide(measured, freeGroups(model, protocol, measured, side), side, job, from + 0.2, from + 0.5);
-  if (fit.outcome != Outcome::Converged) result.outcome = fit.outcome;
-  for (const auto& [unit, factor] : fit.factors) {
-    const std::string& name = model.musculature.units[unit].name;
-    if (std::abs(factor - 1) > kUnchanged) result.length_factors[name] = factor;
-    if (factor < kLeastFactor + 1e-3 || factor > kMostFactor - 1e-3)
-      result.warnings.push_back({"length_factor_at_bound", name +
-                                                               ": length factor at its bound; muscle lengths alone "
-                                                               "cannot meet this examination"});
-  }
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    const ExamTest& test = protocol.tests[i];
-    result.tests.push_back(
-        compare(model, protocol, test, sweeps[i], side, entryOf(exam, test.id, side), mass_kg, fit));
-    if (fit.outcome == Outcome::Converged) warnIfUnmet(test, result.tests.back(), result.warnings);
+}
+
+void addLines(const ClinicalTests& tests, const Side& s, const SideFit& fit, ExamFit& result) {
+  const bool solved = s.measured.empty() || !fit.factors.empty();
+  const LengthFactors factors =
+      fit.factors.empty() ? LengthFactors{} : lengthFactors(s.groups, fit.factors, Scaled::FiberAndTendon);
+  std::vector<SimulatedTest> after;
+  for (std::size_t i = 0; i < s.form.size(); ++i)
+    after.push_back((*s.sweeps)[i].simulate(s.threshold_Nm[i], factors));
+  std::vector<SimulatedTest> after_measured;
+  for (const std::size_t i : s.row) after_measured.push_back(after[i]);
+  const SideResult side{&s.measured, &s.groups, &fit.aims, &fit.factors, &after_measured};
+  for (std::size_t i = 0; i < s.form.size(); ++i) {
+    const ClinicalTest& test = *s.form[i];
+    ExamComparison line{.test = test.id, .side = s.side};
+    line.threshold_Nm = s.threshold_Nm[i];
+    line.norm_mean_deg = test.written_deg(s.norm[i].mean_deg);
+    line.norm_sd_deg = s.norm[i].sd_deg;
+    line.simulated_before_deg = (*s.sweeps)[i].simulate(line.threshold_Nm).written_deg;
+    if (solved) line.simulated_after_deg = after[i].written_deg;
+    line.stopped_by_joint = after[i].stopped_by_joint;
+    line.limiting_muscles = after[i].limiting_muscles;
+    line.limited_by = after[i].limited_by;
+    line.changed = changesOf(tests, test, s.side, result.length_factors);
+    if (s.entry[i] && s.entry[i]->measured_deg) {
+      line.measured_deg = s.entry[i]->measured_deg;
+      line.residual_deg = *line.measured_deg - line.simulated_after_deg;
+      const auto found = std::ranges::find(s.row, i);
+      if (std::abs(line.residual_deg) > kNamedResidual_deg)
+        line.reason = found == s.row.end() ? comparedOnly(test, after[i])
+                                           : residualReason(side, std::size_t(found - s.row.begin()), tests);
+      if (solved) warnIfUnmet(test, line, result.warnings);
+    }
+    result.tests.push_back(std::move(line));
   }
 }
 
 }  // namespace
 
-ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ExamProtocol& protocol, double mass_kg,
-                  const Job& job) {
-  const auto start = std::chrono::steady_clock::now();
-  if (!(mass_kg > 0)) throw InputError{{"exam", "mass_kg", "a number > 0", std::to_string(mass_kg)}};
-  ExamFit result;
-  result.warnings = checkExam(exam, protocol);
-  result.outcome = Outcome::Converged;
+Examiner::Examiner(const Model& model, const ClinicalTests& tests, const ExamSubject& subject, const Job& job)
+    : model_{model}, tests_{tests}, subject_{subject} {
+  if (!(subject.mass_kg > 0)) throw InputError{{"exam", "mass_kg", "a number > 0", std::to_string(subject.mass_kg)}};
+  const auto form = tests.form();
   for (const char side : {'r', 'l'}) {
-    applySide(model, exam, protocol, mass_kg, side, job, result);
-    if (result.outcome == Outcome::Cancelled) return {.outcome = Outcome::Cancelled};
+    auto& sweeps = side == 'r' ? right_ : left_;
+    for (const ClinicalTest* test : form) {
+      if (job.cancelled()) return;
+      job.report((side == 'r' ? 0 : 0.5) + 0.5 * double(sweeps.size()) / double(form.size()),
+                 "simulating " + test->title + (side == 'r' ? ", right" : ", left"));
+      sweeps.emplace_back(model, *test, side);
+    }
   }
-  if (result.outcome != Outcome::Converged) result.length_factors.clear();
+}
+
+ExamFit Examiner::fit(const PhysicalExam& exam, const Job& job, bool with_intervals) const {
+  ExamFit result{.left_in_norm = exam.leave_in_norm};
+  result.warnings = checkExam(exam, tests_);
+  if (job.cancelled()) return {.outcome = Outcome::Cancelled};
+  int sides = 0, unsolved = 0;
+  for (const char side : {'r', 'l'}) {
+    job.report(side == 'r' ? 0 : 0.5, side == 'r' ? "solving muscle lengths, right" : "solving muscle lengths, left");
+    const Side s = sideOf(model_, exam, tests_, subject_, side, side == 'r' ? right_ : left_);
+    const SideFit fit = solve(s, exam.leave_in_norm, tests_.length_sd_m, with_intervals, job);
+    if (job.cancelled() || fit.outcome == Outcome::Cancelled) return {.outcome = Outcome::Cancelled};
+    sides += !s.measured.empty();
+    if (!s.measured.empty() && fit.factors.empty()) {
+      ++unsolved;
+      result.warnings.push_back({"exam_side_not_solved", std::string{side == 'r' ? "right" : "left"} +
+                                                             ": no lengths were found; this side keeps its own"});
+    } else if (fit.outcome != Outcome::Converged) {
+      result.warnings.push_back({"exam_not_converged", std::string{side == 'r' ? "right" : "left"} +
+                                                           ": the solver ran out of iterations; the best lengths "
+                                                           "until then were kept"});
+    }
+    addGroups(tests_, s, fit, result);
+    addLines(tests_, s, fit, result);
+  }
+  // One side that fails does not throw the other away.
+  result.outcome = unsolved > 0 && unsolved == sides ? Outcome::NotConverged : Outcome::Converged;
+  return result;
+}
+
+ExamFit applyExam(const Model& model, const PhysicalExam& exam, const ClinicalTests& tests,
+                  const ExamSubject& subject, const Job& job) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto share = [&](double from, double to) {
+    return Job{[&job, from, to](double done, std::string_view what) { job.report(std::lerp(from, to, done), what); },
+               job.stop};
+  };
+  checkExam(exam, tests);  // before anything is simulated
+  const Examiner examiner{model, tests, subject, share(0, 0.5)};
+  ExamFit result = examiner.fit(exam, share(0.5, 1));
+  if (result.outcome == Outcome::Cancelled) return result;
   job.report(1, "examination met by muscle lengths");
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "clinical/exam/exam_problem_internal.h"
 #include "clinical/exam/physical_exam_json.h"
 #include "core/file.h"
 #include "core/strict_json.h"
@@ -17,46 +18,41 @@ std::string degrees(double value) {
   return text;
 }
 
-/// Silfverskiöld's two halves contradict mechanics when bending the knee takes dorsiflexion away.
-void checkSilfverskioeld(const PhysicalExam& exam, Warnings& warnings) {
-  for (const char side : {'r', 'l'}) {
-    std::optional<double> extended, flexed;
-    for (const auto& e : exam.entries) {
-      if (e.side != side) continue;
-      if (e.test == "silfverskioeld_knee_extended") extended = e.measured_deg;
-      if (e.test == "silfverskioeld_knee_flexed") flexed = e.measured_deg;
-    }
-    if (extended && flexed && *flexed < *extended - 3)
-      warnings.push_back({"exam_contradiction", std::string{"Silfverskiöld ("} + (side == 'r' ? "right" : "left") +
-                                                    "): less dorsiflexion with the knee flexed (" + degrees(*flexed) +
-                                                    ") than extended (" + degrees(*extended) + ")"});
-  }
+/// Pairs of one side that no body has.
+void checkContradictions(const PhysicalExam& exam, const ClinicalTests& tests, Warnings& warnings) {
+  for (const char side : {'r', 'l'})
+    for (const TestContradiction* rule : contradictionsOf(exam, tests, side))
+      warnings.push_back({"exam_contradiction", std::string{side == 'r' ? "right" : "left"} + ": " + rule->text +
+                                                    " (" + tests.test(rule->first).title + " against " +
+                                                    tests.test(rule->second).title + ")"});
 }
 
 }  // namespace
 
-Warnings checkExam(const PhysicalExam& exam, const ExamProtocol& protocol) {
+Warnings checkExam(const PhysicalExam& exam, const ClinicalTests& tests) {
   Warnings warnings;
   std::set<std::pair<std::string, char>> seen;
   for (const auto& entry : exam.entries) {
-    const ExamTest& test = protocol.test(entry.test);
+    const ClinicalTest& test = tests.test(entry.test);
+    if (!test.form) throw InputError{{"exam: " + test.title, "test", "one of the form of the examination", test.id}};
+    const FormRow& form = *test.form;
     const std::string where = "exam: " + test.title + (entry.side == 'r' ? " (right)" : " (left)");
     if (entry.side != 'r' && entry.side != 'l')
       throw InputError{{"exam: " + test.title, "side", "r or l", std::string(1, entry.side)}};
-    if (!seen.insert({entry.test, entry.side}).second)
+    if (!seen.insert({test.id, entry.side}).second)
       throw InputError{{where, "entry", "one line a test and side", "two"}};
     if (entry.threshold_Nm && !(*entry.threshold_Nm > 0))
       throw InputError{{where, "threshold_Nm", "a number > 0", std::to_string(*entry.threshold_Nm)}};
     if (!entry.measured_deg) continue;
     const double x = *entry.measured_deg;
-    if (!(x >= test.entry_min_deg && x <= test.entry_max_deg))
+    if (!(x >= form.entry_min_deg && x <= form.entry_max_deg))
       throw InputError{
-          {where, "measured_deg", degrees(test.entry_min_deg) + " to " + degrees(test.entry_max_deg), degrees(x)}};
-    if (x < test.doubt_min_deg || x > test.doubt_max_deg)
+          {where, "measured_deg", degrees(form.entry_min_deg) + " to " + degrees(form.entry_max_deg), degrees(x)}};
+    if (x < form.doubt_min_deg || x > form.doubt_max_deg)
       warnings.push_back({"exam_unusual", where.substr(6) + ": " + degrees(x) + " is outside the usual " +
-                                              degrees(test.doubt_min_deg) + " to " + degrees(test.doubt_max_deg)});
+                                              degrees(form.doubt_min_deg) + " to " + degrees(form.doubt_max_deg)});
   }
-  checkSilfverskioeld(exam, warnings);
+  checkContradictions(exam, tests, warnings);
   return warnings;
 }
 

@@ -9,6 +9,9 @@ Json examToJson(const PhysicalExam& exam);
 /// Form only; whether the values are possible is checkExam's to say. @throws InputError.
 PhysicalExam examFromJson(const JsonReader& json);
 
+/// One row of "groups": what files, cases and `sinew exam --json` say of a factor.
+Json groupFactorToJson(const GroupFactor& group);
+
 Json examFitToJson(const ExamFit& fit);
 ExamFit examFitFromJson(const JsonReader& json);
 

@@ -1,24 +1,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clinical/case/patient_body.h"
 #include "clinical/exam/physical_exam_json.h"
 #include "clinical/pipeline/patient_model.h"
 #include "clinical/pipeline/reference_files.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
+#include "core/passive/structures.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kReferenceMass_kg = 75;
 /// The protocol; and what the stored musculature leaves to the reference when it is read.
-constexpr auto kResources = referenceModelAnd("clinical/exam_tests.json");
+constexpr auto kResources = referenceModelAnd("clinical/clinical_tests.json");
 
 std::string inputs(const Case& c) {
   return inputText({{"musculature", fileInput(c.musculature)},
                     {"exam", examToJson(c.exam)},
-                    {"mass_kg", numberOrNull(c.patient.mass_kg)}});
+                    {"mass_kg", numberOrNull(c.patient.mass_kg)},
+                    {"birth_date", c.patient.birth_date},
+                    {"sex", c.patient.sex}});
 }
 
 bool hasResult(const Case& c) {
@@ -45,13 +48,16 @@ std::string summaryOf(const ExamFit& fit) {
 /// Muscle lengths that make the simulated tests meet the measured ones; the model with them.
 StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
-  const auto protocol = loadExamProtocol(context.resource_dir);
+  const auto protocol = loadClinicalTests(context.resource_dir);
   if (std::ranges::none_of(c.exam.entries, [](const auto& e) { return e.measured_deg.has_value(); }))
     run.warnings.push_back({"nothing_measured", "no test was measured: muscle lengths follow the bones alone"});
-  if (!c.patient.mass_kg)
-    run.warnings.push_back({"mass_unknown", "body mass is not known: the examiner's torque is that for 75 kg"});
   const Model model = modelBeforeExam(c, *context.reference, context.case_dir, context.resource_dir);
-  c.exam_fit = applyExam(model, c.exam, protocol, c.patient.mass_kg.value_or(kReferenceMass_kg), job);
+  const ExamSubject subject{c.patient.mass_kg.value_or(bodyMass_kg(model.skeleton)), ageYears(c.patient, c.exam),
+                            c.patient.sex};
+  if (!c.patient.mass_kg)
+    run.warnings.push_back({"mass_unknown", "body mass is not known: the examiner's torque is that for the " +
+                                                rounded(subject.mass_kg, 0) + " kg that belong to the bones"});
+  c.exam_fit = applyExam(model, c.exam, protocol, subject, job);
   addWarnings(run.warnings, c.exam_fit->warnings);
   run.outcome = c.exam_fit->outcome;
   run.summary = summaryOf(*c.exam_fit);
@@ -87,8 +93,8 @@ constinit const StageRow kExamRow{
     .stage = Stage::Exam,
     .name = "exam",
     .title = "Examination",
-    .revision =
-        4,  // 2: on the retargeted musculature; 3: on the very file of it; 4: the patient's own mass and joints
+    .revision = 5,  // 2: on the retargeted musculature; 3: on the very file of it; 4: the patient's own mass and
+                    // joints; 5: capsules and ligaments in the tests, norms of the age, intervals
     .resources = kResources,
     .inputs = inputs,
     .has_result = hasResult,

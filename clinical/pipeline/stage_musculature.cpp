@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kFolder = "results/musculature/";
 /// The reference model, and what its poses and motions are sampled from.
-constexpr auto kResources = referenceModelAnd("rom/rom_norms.json", "skeleton/joint_motions.json");
+constexpr auto kResources = referenceModelAnd("clinical/clinical_tests.json", "skeleton/joint_motions.json");
 
 std::string inputs(const Case& c) {
   return inputText({{"shape", c.skeleton ? shapeToJson(c.skeleton->shape) : Json(nullptr)},

@@ -13,7 +13,7 @@ namespace sinew {
 namespace {
 
 constexpr const char* kPath = "results/report.pdf";
-constexpr auto kResources = referenceModelAnd("clinical/exam_tests.json", "clinical/norms.json");
+constexpr auto kResources = referenceModelAnd("clinical/clinical_tests.json", "clinical/norms.json");
 
 /// A result without what differs from run to run.
 Json examFitWithoutTimes(ExamFit fit) {

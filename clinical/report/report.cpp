@@ -117,7 +117,7 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
                   const std::filesystem::path& resource_dir) {
   refuseUnfinished(c, resource_dir);
   const NormTable norms = loadNorms(resource_dir);
-  const ExamProtocol protocol = loadExamProtocol(resource_dir);
+  const ClinicalTests protocol = loadClinicalTests(resource_dir);
   const std::string imaging_date = imagingDate(c, case_dir);
   NormQuery who{c.patient.sex, {}, c.patient.height_m};
   if (const auto age = ageAt(c.patient.birth_date, imaging_date.empty() ? c.exam.date : imaging_date))
@@ -129,9 +129,13 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
   report.bones = boneTable(*c.skeleton, norms, who);
   report.exam = examTable(*c.exam_fit, c.exam, protocol);
   report.muscles = muscleTable(*c.exam_fit, protocol);
-  report.annexes = {definitionTable(*c.skeleton, norms), protocolTable(*c.exam_fit, protocol),
-                    lengthFactorTable(*c.exam_fit),      landmarkTable(c),
-                    provenanceTable(c, case_dir),        resourceTable(resource_dir)};
+  report.annexes = {residualTable(*c.exam_fit, protocol),
+                    definitionTable(*c.skeleton, norms),
+                    protocolTable(*c.exam_fit, protocol),
+                    lengthFactorTable(*c.exam_fit),
+                    landmarkTable(c),
+                    provenanceTable(c, case_dir),
+                    resourceTable(resource_dir)};
   if (c.truth) report.annexes.push_back(truthTable(c));
   report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir, resource_dir), protocol);
   report.footer = footerOf(c);

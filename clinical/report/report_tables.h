@@ -5,7 +5,7 @@
 
 #include "clinical/report/norms.h"
 #include "clinical/report/report.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
@@ -30,21 +30,24 @@ std::string personText(const std::string& dicom_name);
 /// stands in the right column and spans into the left one (kSpan).
 ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const NormQuery& who);
 
-/// Measured, norm, simulated before and after, residual, threshold, what limits: a row a test and side.
-ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ExamProtocol& protocol);
+/// Measured, norm, simulated before and after, residual, threshold, what limits: a row a test and side of which
+/// something was entered; the others are named below.
+ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const ClinicalTests& protocol);
 
-/// Length factor a group and side, strength, and which tests it limits.
-ReportTable muscleTable(const ExamFit& fit, const ExamProtocol& protocol);
+/// Length factor a group and side with its interval, fibre alone, strength, and which tests it limits.
+ReportTable muscleTable(const ExamFit& fit, const ClinicalTests& protocol);
 
 // Annexes.
 ReportTable definitionTable(const SkeletonFit& fit, const NormTable& norms);
-ReportTable protocolTable(const ExamFit& fit, const ExamProtocol& protocol);
+/// Why residuals are what they are.
+ReportTable residualTable(const ExamFit& fit, const ClinicalTests& protocol);
+ReportTable protocolTable(const ExamFit& fit, const ClinicalTests& protocol);
 ReportTable landmarkTable(const Case& c);
 ReportTable lengthFactorTable(const ExamFit& fit);
 ReportTable truthTable(const Case& c);
 ReportTable provenanceTable(const Case& c, const std::filesystem::path& case_dir);
 ReportTable resourceTable(const std::filesystem::path& resource_dir);
 
-std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ExamProtocol& protocol);
+std::vector<PassiveMomentPlot> passiveMomentPlots(const Case& c, const Model& before, const ClinicalTests& protocol);
 
 }  // namespace sinew

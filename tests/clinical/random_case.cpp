@@ -60,6 +60,7 @@ PhysicalExam RandomCase::exam() {
     if (coin()) entry.threshold_Nm = number(1, 80);
     exam.entries.push_back(entry);
   }
+  exam.leave_in_norm = coin();
   return exam;
 }
 
@@ -112,7 +113,9 @@ SkeletonFit RandomCase::skeletonFit() {
 ExamFit RandomCase::examFit() {
   ExamFit fit{.outcome = Outcome::Converged,
               .tests = {},
+              .groups = {},
               .length_factors = factors(),
+              .left_in_norm = coin(),
               .seconds = number(0, 9),
               .warnings = warnings()};
   for (int i = below(4); i > 0; --i) {
@@ -123,12 +126,19 @@ ExamFit RandomCase::examFit() {
     c.simulated_before_deg = numberOrNaN();
     c.simulated_after_deg = numberOrNaN();
     c.residual_deg = numberOrNaN();
+    if (coin()) c.reason = text();
+    c.norm_mean_deg = numberOrNaN();
+    c.norm_sd_deg = numberOrNaN();
     c.threshold_Nm = number(1, 80);
     c.stopped_by_joint = coin();
     if (coin()) c.limiting_muscles = {"semimembranosus_r", text()};
+    if (coin()) c.limited_by = {"capsule and ligaments", text()};
     if (coin()) c.changed = {{"semimembranosus_r", number(0.6, 1.4)}};
     fit.tests.push_back(c);
   }
+  for (int i = below(3); i > 0; --i)
+    fit.groups.push_back(
+        {text(), side(), coin(), number(0.6, 1.4), numberOrNaN(), numberOrNaN(), coin(), number(0.1, 2)});
   return fit;
 }
 
@@ -154,6 +164,7 @@ Case RandomCase::make() {
   if (coin()) c.truth = {figures(), factors(), static_cast<unsigned>(below(1 << 30))};
   if (coin()) c.rig = rig();
   if (coin()) c.landmarks = triangulation();
+  if (coin()) c.exchanged_sides = {{below(3), {"ankle", text()}, coin()}};
   if (coin()) c.skeleton = skeletonFit();
   if (coin()) c.musculature = file("results/musculature/0123456789ab.json");
   if (coin()) c.model = file("results/model.json");

@@ -1,14 +1,17 @@
 #include "tests/support/finished_case.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "clinical/case/case_io.h"
+#include "clinical/case/patient_body.h"
 #include "clinical/pipeline/patient_fit.h"
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/synthetic/synthetic_patient.h"
 #include "clinical/synthetic/synthetic_rig.h"
 #include "core/file.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_sweep.h"
+#include "core/rom/tests/threshold.h"
 #include "imaging/radiograph/radiograph.h"
 #include "imaging/rig/triangulate.h"
 #include "tests/support/resources.h"
@@ -38,22 +41,25 @@ CaseImage plainImage(const View& view, const std::filesystem::path& folder, cons
 }
 
 /// The tests on a body whose right hamstrings are short; the left popliteal angle was not possible.
-PhysicalExam examOf(const Model& body, const ExamProtocol& protocol) {
+PhysicalExam examOf(const Model& body, const ClinicalTests& protocol) {
   std::map<std::string, double> short_hamstrings;
   for (const auto& group : protocol.groups)
     if (group.name == "hamstrings")
-      for (const auto& unit : group.units) short_hamstrings[unit + "_r"] = 0.92;
+      for (const auto& unit : group.units) short_hamstrings[unit + "_r"] = 0.86;
   const Model patient = withLengthFactors(body, short_hamstrings);
   PhysicalExam exam;
   exam.date = "2026-05-06";
   exam.examiner = "A. Examiner";
-  for (const auto& test : protocol.tests)
+  for (const ClinicalTest* row : protocol.form())
     for (const char side : {'r', 'l'}) {
+      const ClinicalTest& test = *row;
       ExamEntry entry{test.id, side, {}, "", {}};
       if (test.id == "popliteal_unilateral" && side == 'l')
         entry.note = "pain";
       else
-        entry.measured_deg = simulateTest(patient, test, side, test.threshold_Nm * kMass_kg / 75).angle_deg;
+        entry.measured_deg =
+            std::max(simulateTest(patient, test, side, scaledThreshold_Nm(test, kMass_kg)).written_deg,
+                     test.form->entry_min_deg);
       exam.entries.push_back(entry);
     }
   return exam;
@@ -84,14 +90,14 @@ Case finishedCase(const Model& reference, const std::filesystem::path& folder) {
   c.patient = {"P-0042", "Hong^Gildong=洪^吉洞=홍^길동", "M", "2008-02-11", "spastic diplegia", 1.71, kMass_kg};
   c.images = {plainImage(rig.views[0], folder, "view1"), plainImage(rig.views[1], folder, "view2")};
   c.sightings = drawSightings(body.skeleton, posture, rig, resourceDir(), 1.0, random);
-  const auto protocol = loadExamProtocol(resourceDir());
+  const auto protocol = loadClinicalTests(resourceDir());
   c.exam = examOf(body, protocol);
 
   c.rig = rig;
   c.landmarks = triangulateAll(rig, c.sightings);
   c.skeleton = fitPatient(reference.skeleton, rig, c.sightings, resourceDir());
   const Model fitted = deformedModel(reference, c.skeleton->shape);
-  c.exam_fit = applyExam(fitted, c.exam, protocol, kMass_kg);
+  c.exam_fit = applyExam(fitted, c.exam, protocol, {kMass_kg, ageYears(c.patient, c.exam), c.patient.sex});
   std::filesystem::create_directories(folder / "results");
   saveModel(fitted, folder / "results/musculature.json");
   c.musculature = FileReference{"results/musculature.json", sha256OfFile(folder / "results/musculature.json")};

@@ -13,7 +13,8 @@ namespace sinew::test {
 inline std::vector<Posture> validPostures(const Skeleton& skeleton, const Musculature& musculature, std::size_t count,
                                           unsigned seed) {
   const RomPreset preset = loadRomPreset(resourceDir(), kDefaultPreset, skeleton);
-  const PoseSet set = sampledPoseSet(skeleton, preset, loadRomNorms(resourceDir(), skeleton).tests, {.count = 4000});
+  const PoseSet set =
+      sampledPoseSet(skeleton, preset, loadClinicalTests(resourceDir(), skeleton).tests, {.count = 4000});
   std::mt19937_64 random{seed};
   std::uniform_int_distribution<std::size_t> any{0, set.size() - 1};
   std::vector<Posture> postures;

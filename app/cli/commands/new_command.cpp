@@ -4,7 +4,7 @@
 #include "app/cli/support/patient_options.h"
 #include "clinical/case/new_case.h"
 #include "clinical/exam/physical_exam.h"
-#include "core/rom/tests/exam_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 namespace {
@@ -29,7 +29,7 @@ NewCase wantedBy(const NewOptions& o, Session& session) {
   if (!o.sightings.empty()) wanted.sightings = loadSightings(o.sightings);
   if (!o.exam.empty()) {
     wanted.exam = loadExam(o.exam);
-    session.warn(checkExam(wanted.exam, loadExamProtocol(session.resourceDir())));
+    session.warn(checkExam(wanted.exam, loadClinicalTests(session.resourceDir())));
   }
   return wanted;
 }

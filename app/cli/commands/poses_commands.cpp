@@ -31,7 +31,7 @@ void addMake(CLI::App& parent, Commands& commands) {
       const Skeleton skeleton = loadReferenceSkeleton(session.resourceDir());
       const RomPreset preset = loadRomPreset(session.resourceDir(), o->preset, skeleton);
       const PoseSet set =
-          sampledPoseSet(skeleton, preset, loadRomNorms(session.resourceDir(), skeleton).tests, o->sample);
+          sampledPoseSet(skeleton, preset, loadClinicalTests(session.resourceDir(), skeleton).tests, o->sample);
       set.save(o->output);
       session.result({{"format", "sinew.poses_made"},
                       {"version", 1},

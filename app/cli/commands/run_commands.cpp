@@ -4,6 +4,7 @@
 #include "app/cli/support/commands.h"
 #include "clinical/case/case_io.h"
 #include "clinical/pipeline/pipeline.h"
+#include "clinical/pipeline/side_check.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
 #include "core/retarget/prepared/reference.h"
@@ -16,10 +17,26 @@ std::optional<Stage> stageOption(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional{stageFromName(name)};
 }
 
+/// Runs as far as the landmarks and gives the picks that were found exchanged the names of the other side.
+RunReport swapSides(Case& c, const std::filesystem::path& folder, Session& session) {
+  RunReport report = runAndStore(c, folder, {{}, Stage::Landmarks}, session);
+  if (report.refused || report.status != ExitStatus::Done) return report;
+  if (c.exchanged_sides.empty()) {
+    session.note("note: no exchange of left and right was found; nothing is exchanged");
+    return report;
+  }
+  applyExchange(c.sightings, c.exchanged_sides);
+  c.exchanged_sides.clear();
+  saveCase(c, folder);
+  session.note("note: left and right exchanged as named");
+  return report;
+}
+
 void addRun(Commands& commands) {
   struct Options {
     std::filesystem::path folder;
     std::string from, to;
+    bool swap = false;
   };
   auto o = std::make_shared<Options>();
   auto& command = addCommand(commands.app, "run", "run the stages of a case that are not done",
@@ -29,10 +46,16 @@ void addRun(Commands& commands) {
   command.add_option("CASE", o->folder, "case folder")->required();
   command.add_option("--from", o->from, "run this stage and those after it even if they are done");
   command.add_option("--to", o->to, "last stage to run");
+  command.add_flag("--swap", o->swap, "exchange left and right where the landmarks stage finds them exchanged");
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const RunRequest request{stageOption(o->from), stageOption(o->to)};
-      Case c;
+      Case c = loadCase(o->folder);
+      if (o->swap) {
+        const RunReport report = swapSides(c, o->folder, session);
+        if (report.refused || report.status != ExitStatus::Done)
+          return finishRun(c, o->folder, report, "sinew.run", session);
+      }
       const RunReport report = runAndStore(c, o->folder, request, session);
       return finishRun(c, o->folder, report, "sinew.run", session);
     };

@@ -37,6 +37,7 @@ const std::vector<Experiment>& experiments() {
       {"peak-torque", "angles of peak torque of the four characters", peakTorqueReport},
       {"moment-arms", "moment arms of the four characters", momentArmsReport},
       {"popliteal", "unilateral popliteal angle at 50 N m", poplitealReport},
+      {"exam", "length factors over the measured angles, and random examinations", examReport},
       {"energy", "energy, time and kept functions against the paper's method", energyReport}};
   return list;
 }

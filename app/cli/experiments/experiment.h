@@ -73,6 +73,7 @@ ExperimentReport charactersReport(ExperimentContext& context);
 ExperimentReport peakTorqueReport(ExperimentContext& context);
 ExperimentReport poseDependenceReport(ExperimentContext& context);
 ExperimentReport poplitealReport(ExperimentContext& context);
+ExperimentReport examReport(ExperimentContext& context);
 ExperimentReport momentArmsReport(ExperimentContext& context);
 ExperimentReport energyReport(ExperimentContext& context);
 

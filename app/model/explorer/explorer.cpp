@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "core/muscle/hill.h"
+#include "core/passive/structures.h"
 #include "core/posture/muscle_role.h"
 #include "core/rom/poses/pose_sampler.h"
+#include "core/rom/tests/threshold.h"
 #include "core/skeleton/clinical_angles.h"
 #include "core/skeleton/mirrored_posture.h"
 
@@ -33,6 +35,7 @@ void Explorer::setModel(std::shared_ptr<const Model> model, const QString& title
   const Skeleton& skeleton = model->skeleton;
   auto motions = loadJointMotions(resource_dir_, skeleton);  // first, so that a complaint leaves the old model shown
   auto presets = namedPostures(resource_dir_, skeleton);
+  examiner_Nm_ = examinerMoments_Nm(loadClinicalTests(resource_dir_, skeleton), skeleton, bodyMass_kg(skeleton));
   model_ = std::move(model);
   title_ = title;
   motions_ = std::move(motions);
@@ -83,15 +86,16 @@ const PostureEvaluation& Explorer::evaluation() const {
 }
 
 void Explorer::computeRanges() {
-  ranges_job_.post(tr("Joint ranges"), [=, this, model = model_, clinical = clinical_](const Job& job) {
-    auto ranges = muscleInducedRanges(*model, clinical, job);
-    return [this, model, clinical, ranges = std::move(ranges)] {
-      if (model != model_) return;
-      ranges_ = ranges;
-      ranges_current_ = clinical == clinical_;
-      emit rangesChanged();
-    };
-  });
+  ranges_job_.post(tr("Joint ranges"),
+                   [=, this, model = model_, clinical = clinical_, examiner_Nm = examiner_Nm_](const Job& job) {
+                     auto ranges = muscleInducedRanges(*model, clinical, job, examiner_Nm);
+                     return [this, model, clinical, ranges = std::move(ranges)] {
+                       if (model != model_) return;
+                       ranges_ = ranges;
+                       ranges_current_ = clinical == clinical_;
+                       emit rangesChanged();
+                     };
+                   });
 }
 
 std::optional<CoordinateRange> Explorer::range(int coordinate) const {

@@ -56,8 +56,8 @@ class Explorer : public QObject {
 
   /// Everything at the present posture, kept until it changes.
   const PostureEvaluation& evaluation() const;
-  /// Muscle-induced ranges, by coordinate; computed beside the window, nullopt until known for some posture. They may
-  /// belong to the posture before for the moment it takes.
+  /// How far an examiner gets with every coordinate, all others held (muscleInducedRange()); computed beside the
+  /// window, nullopt until known for some posture. They may belong to the posture before for the moment it takes.
   std::optional<CoordinateRange> range(int coordinate) const;
   bool rangesAreCurrent() const { return ranges_current_; }
 
@@ -99,6 +99,7 @@ class Explorer : public QObject {
   Posture posture_;
   bool linked_ = false;
   mutable std::optional<PostureEvaluation> evaluation_;
+  std::vector<double> examiner_Nm_;  ///< by coordinate: of the examiner of a body of this mass
   std::vector<CoordinateRange> ranges_;
   bool ranges_current_ = false;
   std::string muscle_;

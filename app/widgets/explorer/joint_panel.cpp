@@ -70,11 +70,12 @@ JointPanel::JointPanel(Explorer& explorer, QWidget* parent) : QWidget{parent}, e
   second->addWidget(mirror);
   auto* legend = makeLabel(tr("<span style='color:#9fb0bf'>▬</span> envelope  "
                               "<span style='color:#8fcaa5'>■</span> normal  "
-                              "<span style='color:#0b6b8c'>▬</span> free of muscles"),
+                              "<span style='color:#0b6b8c'>▬</span> as far as examined"),
                            "small");
-  legend->setToolTip(
-      tr("Envelope: as far as bones and ligaments of this body go. Normal: adult norm. Free of "
-         "muscles: to where the first muscle reaches its longest length, all other joints held."));
+  legend->setToolTip(tr(
+      "Envelope: as far as bones and ligaments of this body go. Normal: adult norm. As far as "
+      "examined: to where muscles, capsule and ligaments set the examiner's moment for a body of this mass against "
+      "the movement, or a muscle reaches its longest length; all other joints held."));
   auto* column = new QVBoxLayout{this};
   column->setContentsMargins(10, 10, 2, 8);
   column->setSpacing(6);

@@ -1,5 +1,6 @@
 #include "app/widgets/stages/exam_page.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
@@ -16,30 +17,25 @@
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/curve_plot.h"
 #include "app/widgets/controls/theme.h"
+#include "app/widgets/stages/exam_text.h"
 #include "clinical/case/patient_edit.h"
+#include "core/passive/structures.h"
+#include "core/rom/tests/clinical_sweep.h"
+#include "core/rom/tests/threshold.h"
 #include "core/text.h"
 
 namespace sinew {
 namespace {
 
-constexpr double kBodyMassOfThresholds_kg = 75;
-
 QString degrees(double value) {
   return std::isfinite(value) ? figure(value, 0) + "°" : QStringLiteral("–");
 }
 
-QString postureText(const ExamTest& test) {
+QString postureText(const ClinicalTest& test) {
   QStringList parts;
   for (const auto& [coordinate, value_deg] : test.posture_deg)
     parts << readableName(coordinate).toLower() + ' ' + figure(value_deg, 0) + "°";
   return parts.join(", ");
-}
-
-QString normText(const ExamTest& test) {
-  if (!std::isfinite(test.norm_mean_deg)) return QObject::tr("no norm");
-  QString text = QObject::tr("norm %1").arg(degrees(test.norm_mean_deg));
-  if (std::isfinite(test.norm_sd_deg)) text += " ± " + degrees(test.norm_sd_deg);
-  return text + (test.norm_verified ? QString{} : QObject::tr(" (not verified)"));
 }
 
 const ExamComparison* comparisonOf(const Case& c, const std::string& test, char side) {
@@ -50,7 +46,7 @@ const ExamComparison* comparisonOf(const Case& c, const std::string& test, char 
 }
 
 /// What a person typed, with the signs that keyboards and habits add; nothing for an empty field.
-std::optional<double> typedNumber(const QString& text, const ExamTest& test, const char* field) {
+std::optional<double> typedNumber(const QString& text, const ClinicalTest& test, const char* field) {
   QString number = text.trimmed();
   number.remove(QChar{0xb0});
   number.replace(QChar{0x2212}, '-').replace(',', '.');
@@ -62,16 +58,31 @@ QString shortFigure(double value) {
   return figure(value, 1).replace(".0", "");
 }
 
-/// The protocol's torque for this patient's mass.
-double usualThreshold(const Case& c, const ExamTest& test) {
-  return test.threshold_Nm * c.patient.mass_kg.value_or(kBodyMassOfThresholds_kg) / kBodyMassOfThresholds_kg;
+/// The protocol's torque for this patient: of the mass that was entered, else of the body that belongs to the bones.
+double usualThreshold(Workspace& workspace, const Case& c, const ClinicalTest& test) {
+  double mass_kg = c.patient.mass_kg.value_or(workspace.protocol().reference_mass_kg);
+  if (!c.patient.mass_kg)
+    if (const auto model = workspace.patientModel()) mass_kg = bodyMass_kg(model->skeleton);
+  return scaledThreshold_Nm(test, mass_kg);
 }
 
-double thresholdOf(const Case& c, const ExamTest& test, char side) {
+double thresholdOf(Workspace& workspace, const Case& c, const ClinicalTest& test, char side) {
   if (const auto* comparison = comparisonOf(c, test.id, side)) return comparison->threshold_Nm;
   const ExamEntry* entry = findExamEntry(c, test.id, side);
   if (entry && entry->threshold_Nm) return *entry->threshold_Nm;
-  return usualThreshold(c, test);
+  return usualThreshold(workspace, c, test);
+}
+
+/// "Limited by psoas major, joint stop".
+QString limitWords(const ExamComparison& result) {
+  QStringList limits;
+  for (const auto& limit : result.limited_by) {
+    const bool unit = limit.ends_with("_r") || limit.ends_with("_l");
+    limits << (limit.starts_with("stop of") ? QObject::tr("joint stop")
+               : unit                       ? readableName(limit).section(',', 0, 0)
+                                            : QString::fromStdString(limit));
+  }
+  return limits.isEmpty() ? QString{} : QObject::tr("Limited by %1").arg(limits.join(", "));
 }
 
 }  // namespace
@@ -101,7 +112,17 @@ ExamPage::ExamPage(Workspace& workspace)
   head_line->addWidget(makeLabel(tr("Date"), "small"));
   head_line->addWidget(date_);
   head->content().addLayout(head_line);
+  leave_in_norm_ = new QCheckBox{tr("Leave lengths as they are inside the norm")};
+  leave_in_norm_->setObjectName("leave_in_norm");
+  leave_in_norm_->setToolTip(
+      tr("A measurement inside the norm of the patient's age, or within its own SD of the mean, changes no muscle "
+         "length; beyond the norm lengths fade in. Off: every measurement counts as it stands."));
+  head->content().addWidget(leave_in_norm_);
   form_->addWidget(head);
+  connect(leave_in_norm_, &QCheckBox::clicked, this, [this](bool on) {
+    this->workspace().document().edit(on ? tr("Leave lengths inside the norm") : tr("Solve inside the norm too"),
+                                      [&](Case& c) { c.exam.leave_in_norm = on; });
+  });
   connect(examiner_, &QLineEdit::editingFinished, this, [this] {
     this->workspace().document().edit(tr("Set examiner"),
                                       [&](Case& c) { c.exam.examiner = examiner_->text().trimmed().toStdString(); });
@@ -133,43 +154,52 @@ ExamPage::ExamPage(Workspace& workspace)
   connect(plot_test_, &QComboBox::activated, this, &ExamPage::refreshPlot);
   connect(plot_side_, &QComboBox::activated, this, &ExamPage::refreshPlot);
 
+  auto* lengths = new Card{tr("Muscle lengths")};
+  factors_ = makeLabel({}, "small");
+  factors_->setObjectName("factor_table");
+  factors_->setTextFormat(Qt::RichText);
+  factors_->setWordWrap(true);
+  lengths->content().addWidget(factors_);
+
+  auto* results = new QVBoxLayout;
+  results->setSpacing(10);
+  results->addWidget(side, 1);
+  results->addWidget(lengths);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
   row->addWidget(scroll, 8);
-  row->addWidget(side, 5);
+  row->addLayout(results, 5);
   body().addLayout(row, 1);
 }
 
 void ExamPage::buildForm() {
   if (built_) return;
-  const ExamProtocol& protocol = workspace().protocol();
-  for (const auto& test : protocol.tests) {
-    form_->addWidget(makeTestCard(test));
-    plot_test_->addItem(QString::fromStdString(test.title), QString::fromStdString(test.id));
+  const ClinicalTests& protocol = workspace().protocol();
+  for (const ClinicalTest* test : protocol.form()) {
+    form_->addWidget(makeTestCard(*test));
+    plot_test_->addItem(QString::fromStdString(test->title), QString::fromStdString(test->id));
   }
   form_->addStretch();
   built_ = true;
 }
 
-QWidget* ExamPage::makeTestCard(const ExamTest& test) {
+QWidget* ExamPage::makeTestCard(const ClinicalTest& test) {
   auto* card = new Card;
   auto* head = new QHBoxLayout;
   head->addWidget(makeLabel(QString::fromStdString(test.title), "heading"));
   head->addStretch();
   card->content().addLayout(head);
-  auto* protocol = makeLabel(QString::fromStdString(test.protocol), "small");
+  auto* protocol = makeLabel(QString::fromStdString(test.form->protocol), "small");
   protocol->setWordWrap(true);
-  auto* convention = makeLabel(tr("Convention: %1").arg(QString::fromStdString(test.convention)), "small");
+  auto* convention = makeLabel(tr("Convention: %1").arg(QString::fromStdString(test.form->convention)), "small");
   convention->setStyleSheet("font-weight: 600; color: " + colour::kPrimaryDark.name());
   convention->setWordWrap(true);
   card->content().addWidget(convention);
   card->content().addWidget(protocol);
-  auto* facts = makeLabel(tr("%1  ·  %2  ·  stop at %3 N m (75 kg)  ·  accepted %4 to %5")
-                              .arg(postureText(test), normText(test), figure(test.threshold_Nm, 0),
-                                   degrees(test.entry_min_deg), degrees(test.entry_max_deg)),
-                          "small");
+  auto* facts = makeLabel({}, "small");
+  facts->setObjectName("facts_" + QString::fromStdString(test.id));
   facts->setWordWrap(true);
-  facts->setToolTip(tr("Norm: %1").arg(QString::fromStdString(test.norm_source)));
+  facts_.emplace(test.id, facts);
   card->content().addWidget(facts);
 
   auto* grid = new QGridLayout;
@@ -195,7 +225,7 @@ QWidget* ExamPage::makeTestCard(const ExamTest& test) {
   return card;
 }
 
-ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& grid, int row) {
+ExamPage::Line ExamPage::makeLine(const ClinicalTest& test, char side, QGridLayout& grid, int row) {
   const QString name = QString::fromStdString(test.id) + (side == 'r' ? "_r" : "_l");
   const QString side_title = side == 'r' ? tr("Right") : tr("Left");
   Line line;
@@ -236,11 +266,11 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
 
   const std::string id = test.id;
   connect(line.measured, &QLineEdit::editingFinished, this, [this, id, side] {
-    const ExamTest& edited = workspace().protocol().test(id);
+    const ClinicalTest& edited = workspace().protocol().test(id);
     enterMeasured(edited, side, lines_.at({id, side}).measured->text());
   });
   connect(line.stop, &QLineEdit::editingFinished, this, [this, id, side] {
-    const ExamTest& edited = workspace().protocol().test(id);
+    const ClinicalTest& edited = workspace().protocol().test(id);
     enterStop(edited, side, lines_.at({id, side}).stop->text());
   });
   connect(line.note, &QLineEdit::editingFinished, this, [this, id, side] {
@@ -250,7 +280,7 @@ ExamPage::Line ExamPage::makeLine(const ExamTest& test, char side, QGridLayout& 
   return line;
 }
 
-void ExamPage::enterMeasured(const ExamTest& test, char side, const QString& text) {
+void ExamPage::enterMeasured(const ClinicalTest& test, char side, const QString& text) {
   const QString label =
       tr("Set %1, %2").arg(QString::fromStdString(test.title).toLower(), sideName(std::string_view{&side, 1}));
   workspace().document().edit(label, [&](Case& c) {
@@ -259,7 +289,7 @@ void ExamPage::enterMeasured(const ExamTest& test, char side, const QString& tex
   refreshLine(test, side, lines_.at({test.id, side}));  // a refused value gives way to the case's
 }
 
-void ExamPage::enterStop(const ExamTest& test, char side, const QString& text) {
+void ExamPage::enterStop(const ClinicalTest& test, char side, const QString& text) {
   const QString label = tr("Set stop torque of %1, %2")
                             .arg(QString::fromStdString(test.title).toLower(), sideName(std::string_view{&side, 1}));
   workspace().document().edit(
@@ -272,43 +302,56 @@ void ExamPage::refresh() {
   const Case& c = shownCase();
   examiner_->setText(QString::fromStdString(c.exam.examiner));
   date_->setText(QString::fromStdString(c.exam.date));
+  leave_in_norm_->setChecked(c.exam.leave_in_norm);
+  factors_->setText(factorTable(c, workspace().protocol()));
+  for (auto& [id, label] : facts_) refreshFacts(workspace().protocol().test(id), *label);
   for (auto& [key, line] : lines_) refreshLine(workspace().protocol().test(key.first), key.second, line);
   refreshPlot();
 }
 
-void ExamPage::refreshLine(const ExamTest& test, char side, Line& line) {
+void ExamPage::refreshFacts(const ClinicalTest& test, QLabel& label) {
+  const TestNorm norm = patientNorm(shownCase(), test);
+  label.setText(tr("%1  ·  %2  ·  stop at %3 N m (%4 kg)  ·  accepted %5 to %6")
+                    .arg(postureText(test), normWords(test, norm), figure(test.threshold_Nm, 0),
+                         figure(test.threshold_mass_kg, 0), degrees(test.form->entry_min_deg),
+                         degrees(test.form->entry_max_deg)));
+  label.setToolTip(tr("Norm: %1").arg(QString::fromStdString(norm.source)));
+}
+
+void ExamPage::refreshLine(const ClinicalTest& test, char side, Line& line) {
   const Case& c = shownCase();
   const ExamEntry* entry = findExamEntry(c, test.id, side);
   const bool measured = entry && entry->measured_deg;
   line.measured->setText(measured ? shortFigure(*entry->measured_deg) : QString{});
-  const bool doubt =
-      measured && (*entry->measured_deg < test.doubt_min_deg || *entry->measured_deg > test.doubt_max_deg);
+  const bool doubt = measured && (*entry->measured_deg < test.form->doubt_min_deg ||
+                                  *entry->measured_deg > test.form->doubt_max_deg);
   setRole(line.measured, "state", doubt ? "doubt" : "");
   line.measured->setToolTip(
-      doubt ? tr("Unusual: expected %1 to %2").arg(degrees(test.doubt_min_deg), degrees(test.doubt_max_deg))
-            : QString::fromStdString(test.convention));
+      doubt
+          ? tr("Unusual: expected %1 to %2").arg(degrees(test.form->doubt_min_deg), degrees(test.form->doubt_max_deg))
+          : QString::fromStdString(test.form->convention));
   line.stop->setText(entry && entry->threshold_Nm ? shortFigure(*entry->threshold_Nm) : QString{});
-  line.stop->setPlaceholderText(figure(usualThreshold(c, test), 0));
+  line.stop->setPlaceholderText(figure(usualThreshold(workspace(), c, test), 0));
   line.note->setText(entry ? QString::fromStdString(entry->note) : QString{});
 
   const ExamComparison* result = comparisonOf(c, test.id, side);
   line.before->setText(result ? degrees(result->simulated_before_deg) : "–");
   line.after->setText(result ? degrees(result->simulated_after_deg) : "–");
   line.residual->setText(result && result->measured_deg ? figure(result->residual_deg, 1) + "°" : "–");
-  const bool off = result && std::abs(result->residual_deg) > test.measurement_sd_deg;
+  const bool off = result && std::abs(result->residual_deg) > test.form->measurement_sd_deg;
   line.residual->setStyleSheet(off ? "font-weight: 600; color: " + colour::kWarning.name() : QString{});
-  QStringList muscles;
-  if (result && result->stopped_by_joint) muscles << tr("joint stop");
-  if (result)
-    for (const auto& muscle : result->limiting_muscles) muscles << readableName(muscle).section(',', 0, 0);
-  line.limiting->setText(tr("Limited by %1").arg(muscles.join(", ")));
-  line.limiting->setVisible(!muscles.isEmpty());
+  QStringList words;
+  if (result) words << limitWords(*result);
+  if (result && !result->reason.empty()) words << tr("Residual: %1").arg(QString::fromStdString(result->reason));
+  words.removeAll(QString{});
+  line.limiting->setText(words.join(". "));
+  line.limiting->setVisible(!words.isEmpty());
 }
 
 void ExamPage::refreshPlot() {
   const std::string id = plot_test_->currentData().toString().toStdString();
   if (id.empty()) return;
-  const ExamTest& test = workspace().protocol().test(id);
+  const ClinicalTest& test = workspace().protocol().test(id);
   const char side = plot_side_->currentIndex() == 0 ? 'r' : 'l';
   const auto model = workspace().patientModel();
   if (!model) {
@@ -317,7 +360,7 @@ void ExamPage::refreshPlot() {
     return;
   }
   const Case& c = shownCase();
-  const double threshold_Nm = thresholdOf(c, test, side);
+  const double threshold_Nm = thresholdOf(workspace(), c, test, side);
   const auto text = [](const QString& words) { return words.toStdString(); };
   FigurePanel panel{text(tr("passive moment, N m"))};
   const ExamComparison* result = comparisonOf(c, id, side);
@@ -335,10 +378,10 @@ void ExamPage::refreshPlot() {
     panel.marks.push_back({text(tr("measured %1").arg(degrees(*entry->measured_deg))), *entry->measured_deg});
   panel.from_zero = true;
   panel.highest = 3 * threshold_Nm;
-  const bool norm = std::isfinite(test.norm_mean_deg) && std::isfinite(test.norm_sd_deg);
-  if (norm)
-    panel.band = {test.norm_mean_deg - 2 * test.norm_sd_deg, test.norm_mean_deg + 2 * test.norm_sd_deg,
-                  text(tr("norm ± 2 SD"))};
+  const TestNorm norm = patientNorm(c, test);
+  const double mean_deg = test.written_deg(norm.mean_deg);
+  if (std::isfinite(mean_deg) && std::isfinite(norm.sd_deg))
+    panel.band = {mean_deg - 2 * norm.sd_deg, mean_deg + 2 * norm.sd_deg, text(tr("norm ± 2 SD"))};
   plot_->setPanel(std::move(panel), tr("%1, degrees").arg(QString::fromStdString(test.title)));
 
   QStringList changes;

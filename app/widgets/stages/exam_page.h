@@ -5,6 +5,7 @@
 
 #include "app/widgets/stages/stage_page.h"
 
+class QCheckBox;
 class QComboBox;
 class QGridLayout;
 class QLabel;
@@ -14,10 +15,10 @@ class QVBoxLayout;
 namespace sinew {
 
 class CurvePlot;
-struct ExamTest;
+struct ClinicalTest;
 
 /// The examination by test and side: what was measured, what the model gives in the same test before and after its
-/// muscle lengths were solved, what remains, and which muscles limit.
+/// muscle lengths were solved, what remains and why, which muscles limit; every length factor with its interval.
 class ExamPage : public StagePage {
   Q_OBJECT
  public:
@@ -32,18 +33,21 @@ class ExamPage : public StagePage {
     QLabel *before, *after, *residual, *limiting;
   };
   void buildForm();
-  QWidget* makeTestCard(const ExamTest& test);
-  Line makeLine(const ExamTest& test, char side, QGridLayout& grid, int row);
-  void enterStop(const ExamTest& test, char side, const QString& text);
-  void enterMeasured(const ExamTest& test, char side, const QString& text);
-  void refreshLine(const ExamTest& test, char side, Line& line);
+  QWidget* makeTestCard(const ClinicalTest& test);
+  Line makeLine(const ClinicalTest& test, char side, QGridLayout& grid, int row);
+  void enterStop(const ClinicalTest& test, char side, const QString& text);
+  void enterMeasured(const ClinicalTest& test, char side, const QString& text);
+  void refreshFacts(const ClinicalTest& test, QLabel& label);
+  void refreshLine(const ClinicalTest& test, char side, Line& line);
   void refreshPlot();
 
   QVBoxLayout* form_;
   QLineEdit *examiner_, *date_;
   QComboBox *plot_test_, *plot_side_;
   CurvePlot* plot_;
-  QLabel* verdict_;
+  QLabel *verdict_, *factors_;
+  QCheckBox* leave_in_norm_;
+  std::map<std::string, QLabel*> facts_;  ///< by test: norm, stop, limits
   std::map<std::pair<std::string, char>, Line> lines_;
   bool built_ = false;
 };

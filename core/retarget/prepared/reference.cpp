@@ -51,7 +51,7 @@ std::shared_ptr<const RetargetReference> loadRetargetReference(const std::filesy
   Model model = loadReferenceModel(resource_dir, preset);
   auto poses =
       std::make_shared<PoseSet>(sampledPoseSet(model.skeleton, loadRomPreset(resource_dir, preset, model.skeleton),
-                                               loadRomNorms(resource_dir, model.skeleton).tests));
+                                               loadClinicalTests(resource_dir, model.skeleton).tests));
   auto motions = loadJointMotions(resource_dir, model.skeleton);
   return std::make_shared<const RetargetReference>(std::move(model), std::move(motions), std::move(poses));
 }

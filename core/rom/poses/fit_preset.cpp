@@ -7,7 +7,7 @@
 #include "core/muscle/hill.h"
 #include "core/muscle/muscle_path.h"
 #include "core/rom/poses/range_postures.h"
-#include "core/rom/tests/movement_internal.h"
+#include "core/rom/tests/clinical_sweep.h"
 
 namespace sinew {
 namespace {
@@ -20,12 +20,12 @@ struct RightPaths {
 };
 
 RightPaths rightPaths(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
-                      const RomNorms& norms, const PoseSampleOptions& poses) {
+                      const ClinicalTests& tests, const PoseSampleOptions& poses) {
   const auto half = static_cast<std::ptrdiff_t>(published.units.size() / 2);
   RightPaths right{
       .units = {{published.units.begin(), published.units.begin() + half}}, .of_poses = {}, .working = {}};
   right.of_poses = longestPaths(skeleton, right.units, [&](const PoseVisitor& visit) {
-    samplePoses(skeleton, preset, norms.tests, poses, visit);
+    samplePoses(skeleton, preset, tests.tests, poses, visit);
   });
   const auto single_motions = singleMotions(skeleton, preset);
   right.working.shortest_m = longestPaths(skeleton, right.units, [&](const PoseVisitor& visit) {
@@ -47,13 +47,13 @@ std::vector<LengthEstimate> lengthsOfPoses(const Skeleton& skeleton, const Muscu
 }
 
 /// Largest common share of F_max at which units that pull against the movement leave the moment at the threshold.
-double allowedShare(const Model& model, const std::vector<std::pair<double, int>>& moments, const Movement& movement,
-                    double s_deg, double threshold_Nm) {
+double allowedShare(const Model& model, const std::vector<std::pair<double, int>>& moments,
+                    const ClinicalSweep& sweep, double s_deg, double threshold_Nm) {
   const auto capped_Nm = [&](double cap) {
     double sum = 0;
     for (const auto& [moment, u] : moments) {
       const MusculotendonUnit& unit = model.musculature.units[static_cast<std::size_t>(u)];
-      const double share = equilibrium(unit, movement.length_m(u, s_deg), 0).force_N / unit.max_isometric_force_N;
+      const double share = equilibrium(unit, sweep.length_m(u, s_deg), 0).force_N / unit.max_isometric_force_N;
       sum += moment > 0 ? moment * std::min(1.0, cap / share) : moment;
     }
     return sum;
@@ -80,33 +80,47 @@ void lengthen(std::size_t unit, double factor, PresetFit& fit) {
   }
 }
 
-/// Place of the movement where the test reads its target.
-double placeOf(const RomTest& test, const RomTarget& target, const Movement& movement) {
-  if (target.to_stops) return movement.end_deg();
-  require(test.reads.size() == 1 && test.moves.size() == 1, "a target angle is for a test of one coordinate");
-  return (target.target_deg - test.read_offset_deg) / test.reads.begin()->second / test.moves.begin()->second;
+/// A test of the preset with its way, tabulated once: only lengths change from round to round.
+struct Way {
+  const ClinicalTest* test;
+  ClinicalSweep sweep;
+  double to_deg;  ///< place of the movement where the test reads its target
+};
+
+std::vector<Way> waysOf(const Model& model, const std::vector<RomTarget>& targets, const ClinicalTests& tests) {
+  std::vector<Way> ways;
+  for (const RomTarget& target : targets) {
+    const ClinicalTest& test = tests.test(target.test);
+    ClinicalSweep sweep{model, test, 'r', 1};
+    if (!target.to_stops)
+      require(test.reads.size() == 1 && test.moves.size() == 1, "a target angle is for a test of one coordinate");
+    const double to_deg = target.to_stops ? sweep.end_deg()
+                                          : (target.target_deg - test.read_offset_deg) / test.reads.begin()->second /
+                                                test.moves.begin()->second;
+    ways.push_back({&test, std::move(sweep), to_deg});
+  }
+  return ways;
 }
 
 /// Makes the way of one test up to its target free. Returns whether something had to be lengthened.
-bool clearWay(const RomTest& test, const RomTarget& target, double step_deg, PresetFit& fit) {
-  const Movement movement{fit.model, test, 'r'};
-  const double to_deg = placeOf(test, target, movement);
+bool clearWay(const Way& way, double step_deg, PresetFit& fit) {
+  const double direction = way.sweep.direction();
   bool changed = false;
   constexpr double kTolerance = 1e-4;  // of the threshold
-  for (double s = test.from_deg;; s += movement.direction() * step_deg) {
-    const bool last = (s - to_deg) * movement.direction() >= 0;
-    if (last) s = to_deg - movement.direction() * 1e-6;  // where a stop has not yet halted it
-    const auto moments = movement.moments(s);
+  for (double s = way.test->from_deg;; s += direction * step_deg) {
+    const bool last = (s - way.to_deg) * direction >= 0;
+    if (last) s = way.to_deg - direction * 1e-6;  // where a stop has not yet halted it
+    const auto moments = way.sweep.moments_Nm(s, fit.model.musculature.units);
     double sum_Nm = 0;
     for (const auto& [moment, unit] : moments) sum_Nm += moment;
     // On the way a little less: a moment that only touches the threshold there would already end the test.
-    const double allowed_Nm = (last ? 1 : 0.98) * test.threshold_Nm;
+    const double allowed_Nm = (last ? 1 : 0.98) * way.test->threshold_Nm;
     if (sum_Nm > allowed_Nm * (1 + kTolerance)) {
-      const double share = allowedShare(fit.model, moments, movement, s, allowed_Nm);
+      const double share = allowedShare(fit.model, moments, way.sweep, s, allowed_Nm);
       for (const auto& [moment, u] : moments) {
         if (moment <= 0) continue;
         const auto i = static_cast<std::size_t>(u);
-        const double f = relaxingFactor(fit.model.musculature.units[i], movement.length_m(u, s), share);
+        const double f = relaxingFactor(fit.model.musculature.units[i], way.sweep.length_m(u, s), share);
         if (f > 1) lengthen(i, f, fit);
       }
       changed = true;
@@ -118,29 +132,30 @@ bool clearWay(const RomTest& test, const RomTarget& target, double step_deg, Pre
 }  // namespace
 
 PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
-                    const RomNorms& norms, const PresetFitOptions& options, const Job& job) {
+                    const ClinicalTests& tests, const PresetFitOptions& options, const Job& job) {
   job.report(0, "longest paths of " + preset.name);
-  RightPaths right = rightPaths(skeleton, published, preset, norms, options.poses);
+  RightPaths right = rightPaths(skeleton, published, preset, tests, options.poses);
   const auto targets = preset.targets();
+  Model body{.skeleton = skeleton, .musculature = published};
+  setStops(body.skeleton, preset);
+  const std::vector<Way> ways = waysOf(body, targets, tests);
   PresetFit fit;
   // Twice: only after the tests is it known how much a fibre is lengthened, and by what it falls short of working.
   for (int pass = 0; pass < 2; ++pass) {
     fit = {.lengths = lengthsOfPoses(skeleton, published, right)};
-    fit.model.skeleton = skeleton;
-    setStops(fit.model.skeleton, preset);
+    fit.model.skeleton = body.skeleton;
     fit.model.musculature = withLengths(published, fit.lengths);
     const std::vector<LengthEstimate> of_poses = fit.lengths;
     for (bool changed = true; changed && fit.rounds < options.most_rounds && !job.cancelled(); ++fit.rounds) {
       changed = false;
       job.report(0.5 * (1 + pass + double(fit.rounds) / options.most_rounds) / 1.5, "tests of " + preset.name);
-      for (const RomTarget& target : targets)
-        changed = clearWay(norms.test(target.test), target, options.step_deg, fit) || changed;
+      for (const Way& way : ways) changed = clearWay(way, options.step_deg, fit) || changed;
     }
     right.working.lengthened.resize(right.working.shortest_m.size());
     for (Eigen::Index i = 0; i < right.working.lengthened.size(); ++i)
       right.working.lengthened[i] = fit.lengths[std::size_t(i)].scale / of_poses[std::size_t(i)].scale;
   }
-  for (const RomTarget& target : targets) fit.readings.push_back(simulateRomTest(fit.model, norms.test(target.test)));
+  for (const Way& way : ways) fit.readings.push_back(simulateTest(fit.model, *way.test, 'r', way.test->threshold_Nm));
   const auto standing = segmentPoses(skeleton, zeroPosture(skeleton));
   for (std::size_t i = 0; i < fit.lengths.size(); ++i) {
     const MusculotendonUnit& unit = fit.model.musculature.units[i];

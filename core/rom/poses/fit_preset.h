@@ -5,7 +5,7 @@
 #include "core/model/rom_preset.h"
 #include "core/rom/poses/length_estimation.h"
 #include "core/rom/poses/pose_sampler.h"
-#include "core/rom/tests/rom_test.h"
+#include "core/rom/tests/clinical_sweep.h"
 
 namespace sinew {
 
@@ -15,7 +15,8 @@ namespace sinew {
 // with the examiner's moment as their threshold: all the way to the angle that people reach, the passive moment may
 // not exceed it. Units that pull against the movement more than a common share of their F_max are lengthened (ratio
 // kept) to that share, which is as large as the threshold allows: one number a posture, none a muscle. Lengthening
-// keeps every posture of the set valid.
+// keeps every posture of the set valid. Capsules and ligaments are left aside: they come on top, at the ends of the
+// ranges (docs/methods/passive_structures.md).
 
 struct PresetFitOptions {
   PoseSampleOptions poses;
@@ -25,13 +26,13 @@ struct PresetFitOptions {
 
 struct PresetFit {
   std::vector<LengthEstimate> lengths;
-  Model model;                       ///< skeleton with the preset's stops, muscles with these lengths; no bones
-  std::vector<RomReading> readings;  ///< of the preset's targets, in their order
-  int rounds = 0;                    ///< over the tests, until nothing needed to be lengthened
+  Model model;                          ///< skeleton with the preset's stops, muscles with these lengths; no bones
+  std::vector<SimulatedTest> readings;  ///< of the preset's targets, in their order
+  int rounds = 0;                       ///< over the tests, until nothing needed to be lengthened
 };
 
 /// `published`: muscles with their published fibre and tendon lengths, right half then left half.
 PresetFit fitPreset(const Skeleton& skeleton, const Musculature& published, const RomPreset& preset,
-                    const RomNorms& norms, const PresetFitOptions& options = {}, const Job& job = {});
+                    const ClinicalTests& tests, const PresetFitOptions& options = {}, const Job& job = {});
 
 }  // namespace sinew

@@ -99,14 +99,14 @@ bool nearGimbalLock(const Skeleton& skeleton, const Eigen::VectorXd& clinical) {
 
 /// Every bound at its limit: so that the fit does not hang on where the sample happens to fall.
 std::vector<Eigen::VectorXd> ends(const Skeleton& skeleton, const RomPreset& preset,
-                                  const std::vector<RomTest>& tests, const Domain& domain) {
+                                  const std::vector<ClinicalTest>& tests, const Domain& domain) {
   std::vector<Eigen::VectorXd> result;
   const auto add = [&](const Eigen::VectorXd& clinical) {
     if (domain.allows(clinical) && !nearGimbalLock(skeleton, clinical)) result.push_back(clinical);
   };
   for (const RomBound& bound : preset.bounds) {
     Eigen::VectorXd clinical = Eigen::VectorXd::Zero(skeleton.coordinateCount());
-    const auto test = std::ranges::find(tests, bound.test, &RomTest::id);
+    const auto test = std::ranges::find(tests, bound.test, &ClinicalTest::id);
     if (test != tests.end()) clinical = clinicalFromPosture(skeleton, test->posture(skeleton, 'r'));
     const SidedBound b = sidedBound(skeleton, bound, 'r');
     const auto [first, factor] = b.terms[0];
@@ -159,7 +159,7 @@ Posture rounded(const Posture& q) {
 
 }  // namespace
 
-void samplePoses(const Skeleton& skeleton, const RomPreset& preset, const std::vector<RomTest>& tests,
+void samplePoses(const Skeleton& skeleton, const RomPreset& preset, const std::vector<ClinicalTest>& tests,
                  const PoseSampleOptions& options, const PoseVisitor& visit) {
   const Domain domain{skeleton, preset};
   Blocks blocks{skeleton, visit};
@@ -185,7 +185,7 @@ void samplePoses(const Skeleton& skeleton, const RomPreset& preset, const std::v
   blocks.flush();
 }
 
-PoseSet sampledPoseSet(const Skeleton& skeleton, const RomPreset& preset, const std::vector<RomTest>& tests,
+PoseSet sampledPoseSet(const Skeleton& skeleton, const RomPreset& preset, const std::vector<ClinicalTest>& tests,
                        const PoseSampleOptions& options) {
   PoseSet set{skeleton, "synthetic, preset " + preset.name + ", seed " + std::to_string(options.seed)};
   samplePoses(skeleton, preset, tests, options, [&](const Eigen::MatrixXd& postures) {

@@ -5,7 +5,7 @@
 
 #include "core/model/rom_preset.h"
 #include "core/rom/poses/pose_set.h"
-#include "core/rom/tests/rom_test.h"
+#include "core/rom/tests/clinical_tests.h"
 
 namespace sinew {
 
@@ -20,11 +20,11 @@ struct PoseSampleOptions {
 /// lies within 1 deg of a ball joint's gimbal lock, where clinical angles cannot be read. Before them come the ends
 /// themselves: every range and every coupling at its limit, in the posture of its test if it has one. Every posture
 /// is followed by its mirror image.
-void samplePoses(const Skeleton& skeleton, const RomPreset& preset, const std::vector<RomTest>& tests,
+void samplePoses(const Skeleton& skeleton, const RomPreset& preset, const std::vector<ClinicalTest>& tests,
                  const PoseSampleOptions& options, const PoseVisitor& visit);
 
 /// The same, stored.
-PoseSet sampledPoseSet(const Skeleton& skeleton, const RomPreset& preset, const std::vector<RomTest>& tests,
+PoseSet sampledPoseSet(const Skeleton& skeleton, const RomPreset& preset, const std::vector<ClinicalTest>& tests,
                        const PoseSampleOptions& options = {});
 
 /// The same for the normal limits of the skeleton alone, without couplings and mirror images: to try things on.

@@ -28,7 +28,7 @@ const RetargetReference& reference() {
     auto motions = loadJointMotions(test::resourceDir(), model.skeleton);
     auto poses = std::make_shared<PoseSet>(
         sampledPoseSet(model.skeleton, loadRomPreset(test::resourceDir(), "average-adult", model.skeleton),
-                       loadRomNorms(test::resourceDir(), model.skeleton).tests, {.count = 4000}));
+                       loadClinicalTests(test::resourceDir(), model.skeleton).tests, {.count = 4000}));
     return std::make_unique<const RetargetReference>(std::move(model), std::move(motions), std::move(poses));
   }();
   return *made;

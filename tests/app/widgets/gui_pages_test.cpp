@@ -179,10 +179,11 @@ TEST_F(PagesTest, EveryFieldOfTheExaminationIsStoredAndReadBack) {
   workspace_.view().setStage(Stage::Exam);
   type("examiner", "B. Reader");
   type("exam_date", "2024-05-07");  // a day that is past by every clock
-  for (const auto& test : workspace_.protocol().tests)
+  for (const ClinicalTest* row : workspace_.protocol().form())
     for (const char side : {'r', 'l'}) {
+      const ClinicalTest& test = *row;
       const QString name = QString::fromStdString(test.id) + '_' + side;
-      const double value_deg = std::round((test.entry_min_deg + test.entry_max_deg) / 2);
+      const double value_deg = std::round((test.form->entry_min_deg + test.form->entry_max_deg) / 2);
       type("measured_" + name, QString::number(value_deg) + "°");
       type("stop_" + name, side == 'r' ? "22,5" : "31");
       type("note_" + name, "firm " + name);
@@ -192,27 +193,29 @@ TEST_F(PagesTest, EveryFieldOfTheExaminationIsStoredAndReadBack) {
   const Case stored = loadCase(folder_ / "case");
   EXPECT_EQ(stored.exam.examiner, "B. Reader");
   EXPECT_EQ(stored.exam.date, "2024-05-07");
-  for (const auto& test : workspace_.protocol().tests)
+  for (const ClinicalTest* row : workspace_.protocol().form())
     for (const char side : {'r', 'l'}) {
+      const ClinicalTest& test = *row;
       const ExamEntry* entry = findExamEntry(stored, test.id, side);
       ASSERT_NE(entry, nullptr) << test.id << side;
-      EXPECT_EQ(entry->measured_deg, std::round((test.entry_min_deg + test.entry_max_deg) / 2)) << test.id << side;
+      EXPECT_EQ(entry->measured_deg, std::round((test.form->entry_min_deg + test.form->entry_max_deg) / 2))
+          << test.id << side;
       EXPECT_EQ(entry->threshold_Nm, side == 'r' ? 22.5 : 31) << test.id << side;
       EXPECT_EQ(entry->note, "firm " + test.id + '_' + side);
     }
   // Another window shows what was stored; an emptied field is not measured.
   workspace_.openCase(folder_ / "case");
-  const QString first = QString::fromStdString(workspace_.protocol().tests.front().id) + "_r";
+  const QString first = QString::fromStdString(workspace_.protocol().form().front()->id) + "_r";
   EXPECT_EQ(find<QLineEdit>("stop_" + first).text(), "22.5");
   EXPECT_EQ(find<QLineEdit>("note_" + first).text(), "firm " + first);
   type("measured_" + first, "");
-  EXPECT_FALSE(findExamEntry(current(), workspace_.protocol().tests.front().id, 'r')->measured_deg.has_value());
+  EXPECT_FALSE(findExamEntry(current(), workspace_.protocol().form().front()->id, 'r')->measured_deg.has_value());
 }
 
 TEST_F(PagesTest, AnImpossibleStopTorqueIsRefusedAndTheFieldShowsTheStoredOne) {
   openFinished();
   workspace_.view().setStage(Stage::Exam);
-  const std::string id = workspace_.protocol().tests.front().id;
+  const std::string id = workspace_.protocol().form().front()->id;
   const QString name = "stop_" + QString::fromStdString(id) + "_r";
   for (const char* typed : {"900", "-3", "strong"}) {
     problem_.clear();

@@ -146,7 +146,7 @@ void Tour::enterTheExamination() {
   goTo(Stage::Exam);
   const Case demo = current();
   const auto& protocol = workspace_.protocol();
-  const auto& test = protocol.tests.front();
+  const ClinicalTest& test = *protocol.form().front();
   const QString name = "measured_" + QString::fromStdString(test.id) + "_r";
   type(name, "400");
   ASSERT_FALSE(problems_.isEmpty());

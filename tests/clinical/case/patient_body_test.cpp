@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "clinical/exam/physical_exam.h"
+#include <cstdio>
+#include <map>
+
 #include "core/model/physical_scaling.h"
+#include "core/posture/evaluate.h"
+#include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 
 namespace sinew {
@@ -90,22 +94,50 @@ TEST(PatientBody, IsAsOldAsOnTheDayOfTheExamination) {
             stopOf(modelOf(child, weighing(23))) + 0.1);
 }
 
-/// The examiner's torque follows the mass, and so must what it is set against: a healthy child of 23 kg is examined
-/// like the adult. (With an adult's maximal forces the hamstrings held it 20 deg earlier, and fitting them to a
-/// normal examination made them longer.)
-TEST(PatientBody, AHealthyChildIsExaminedLikeTheAdult) {
+/// Passive moment of muscles, capsules and ligaments about one coordinate, bent hips and knees.
+double passive_Nm(const Model& model, const char* coordinate, const std::map<std::string, double>& posture_deg) {
+  const Posture q = postureFromDegrees(model.skeleton, posture_deg);
+  return evaluatePosture(model.skeleton, model.musculature, q, model.passive_moments)
+      .passive_torque[model.skeleton.coordinateIndex(coordinate)];
+}
+
+struct TestPosture {
+  const char* coordinate;
+  std::map<std::string, double> posture_deg;
+};
+/// Where the reference holds an examiner: popliteal angle, Staheli, Silfverskiold with the knee straight.
+const TestPosture kTests[] = {{"knee_flexion_r", {{"hip_flexion_r", 90}, {"knee_flexion_r", 30}}},
+                              {"hip_flexion_r", {{"hip_flexion_r", -10}}},
+                              {"ankle_dorsiflexion_r", {{"ankle_dorsiflexion_r", 15}}}};
+
+/// The examiner's torque is in proportion to the mass, and so is what a scaled body sets against it in every posture
+/// (forces with the cross-section, arms with the length): it is examined like the reference, and not called long.
+TEST(PatientBody, AScaledBodyIsExaminedLikeTheReference) {
+  const double mass_kg = 0.9 * 0.9 * 0.9 * bodyMass_kg(reference().skeleton);
+  const Model girl = modelOf(uniform(0.9), weighing(mass_kg));
+  for (const TestPosture& test : kTests) {
+    const double ours = passive_Nm(girl, test.coordinate, test.posture_deg) / mass_kg;
+    const double adults =
+        passive_Nm(reference(), test.coordinate, test.posture_deg) / bodyMass_kg(reference().skeleton);
+    EXPECT_NEAR(ours, adults, 0.01 * std::abs(adults)) << test.coordinate;
+  }
+}
+
+/// Not a scaled adult, but nearer to one than with an adult's maximal forces (which made fitting a healthy child's
+/// examination lengthen its muscles).
+TEST(PatientBody, AChildIsNotAsStiffAsAnAdult) {
   const ShapeParameters shape = loadShapePreset(test::resourceDir(), "child").shape;
   const Model child = modelOf(shape, weighing(23)), adult_forces = deformedModel(reference(), shape);
-  const ExamProtocol protocol = loadExamProtocol(test::resourceDir());
-  for (const char* id : {"popliteal_unilateral", "silfverskioeld_knee_extended", "silfverskioeld_knee_flexed"}) {
-    const ExamTest& test = protocol.test(id);
-    const double adult_deg = simulateTest(reference(), test, 'r', test.threshold_Nm * 73 / 75).angle_deg;
-    const double child_deg = simulateTest(child, test, 'r', test.threshold_Nm * 23 / 75).angle_deg;
-    const double wrong_deg = simulateTest(adult_forces, test, 'r', test.threshold_Nm * 23 / 75).angle_deg;
-    std::printf("%s: adult %.1f, child %.1f, child with an adult's forces %.1f deg\n", id, adult_deg, child_deg,
-                wrong_deg);
-    EXPECT_NEAR(child_deg, adult_deg, 5) << id;
-    EXPECT_GT(std::abs(wrong_deg - adult_deg), std::abs(child_deg - adult_deg)) << id;
+  for (const TestPosture& test : kTests) {
+    const double adults =
+        passive_Nm(reference(), test.coordinate, test.posture_deg) / bodyMass_kg(reference().skeleton);
+    const double ratio = passive_Nm(child, test.coordinate, test.posture_deg) / 23 / adults;
+    const double before = passive_Nm(adult_forces, test.coordinate, test.posture_deg) / 23 / adults;
+    std::printf("%s: %.2f of the adult's moment a kilogram, %.2f with an adult's forces\n", test.coordinate, ratio,
+                before);
+    EXPECT_GT(ratio, 0.6) << test.coordinate;
+    EXPECT_LT(ratio, 2) << test.coordinate;
+    EXPECT_LT(ratio, before) << test.coordinate;
   }
 }
 

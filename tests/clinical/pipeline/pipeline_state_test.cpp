@@ -59,7 +59,8 @@ TEST(PipelineState, AMovedSightingMakesEverythingAfterItStale) {
 TEST(PipelineState, EachInputReachesTheStagesThatReadIt) {
   Case c = finishedCase();
   c.exam.examiner += "x";
-  EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "stale", "stale"));
+  EXPECT_THAT(states(c),
+              ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
   c = finishedCase();
   c.patient.diagnosis += "x";
   EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "done", "stale"));
@@ -147,12 +148,12 @@ TEST(PipelineState, WhatNoStageReadsIsNoNews) {
   EXPECT_EQ(inputHash(c, Stage::Report, copy.path()), before);
 }
 
-TEST(PipelineState, AThresholdHalvedInTheProtocolReachesExaminationAndReport) {
+TEST(PipelineState, AThresholdHalvedInTheTestsReachesEveryStageThatReadsThem) {
   const test::TemporaryFolder copy;
   std::filesystem::copy(test::resourceDir(), copy.path(), std::filesystem::copy_options::recursive);
   Case c = finishedCase();
   for (const Stage stage : kStages) c.stages[stage].input_hash = inputHash(c, stage, copy.path());
-  const auto file = copy / "clinical/exam_tests.json";
+  const auto file = copy / "clinical/clinical_tests.json";
   std::string text = readFile(file);
   const auto at = text.find("\"threshold_Nm\": ");
   ASSERT_NE(at, std::string::npos);
@@ -160,7 +161,8 @@ TEST(PipelineState, AThresholdHalvedInTheProtocolReachesExaminationAndReport) {
   writeFileAtomically(file, text);
   std::vector<std::string> names;
   for (const auto& status : statusOf(c, copy.path())) names.push_back(nameOf(status.state));
-  EXPECT_THAT(names, ElementsAre("done", "done", "done", "done", "done", "stale", "stale"));
+  EXPECT_THAT(names,
+              ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
 }
 
 TEST(ResourceHash, OfAFolderFollowsNamesAndContents) {

@@ -163,21 +163,25 @@ TEST_F(CaseReport, ExamTableShowsBothSimulationsAndWhyATestIsMissing) {
       right = true;
       EXPECT_NE(row[4], row[5]) << "short hamstrings must change the simulated angle: " << rowText(row);
       EXPECT_LT(std::abs(std::stod(row[6])), 2.0) << rowText(row);
-      EXPECT_EQ(row[7], numberText(50 * 58 / 75.0));
+      EXPECT_EQ(row[7], numberText(50 * 58 / 73.0));
     }
   }
   EXPECT_TRUE(right && left);
 }
 
 TEST_F(CaseReport, AMeasurementBeyondItsNormIsMarkedLikeABone) {
-  const ExamProtocol protocol = loadExamProtocol(test::resourceDir());
-  const ExamTest& test = protocol.test("popliteal_unilateral");
+  const ClinicalTests protocol = loadClinicalTests(test::resourceDir());
+  const ClinicalTest& test = protocol.test("popliteal_unilateral");
+  const double mean_deg = 26, sd_deg = 12;
   const auto shown = [&](double beyond_sd, double error_sd) {
     ExamFit fit;
-    fit.tests = {
-        {.test = test.id,
-         .side = 'r',
-         .measured_deg = test.norm_mean_deg + beyond_sd * test.norm_sd_deg + error_sd * test.measurement_sd_deg}};
+    ExamComparison comparison;
+    comparison.test = test.id;
+    comparison.side = 'r';
+    comparison.measured_deg = mean_deg + beyond_sd * sd_deg + error_sd * test.form->measurement_sd_deg;
+    comparison.norm_mean_deg = mean_deg;
+    comparison.norm_sd_deg = sd_deg;
+    fit.tests = {comparison};
     return examTable(fit, {}, protocol).rows.at(0)[2];
   };
   EXPECT_THAT(shown(2, 2.1), HasSubstr("\u25B2"));
@@ -191,7 +195,7 @@ TEST_F(CaseReport, MuscleTableFindsTheShortHamstrings) {
     if (row[0] == "Hamstrings") {
       EXPECT_NEAR(std::stod(row[1]), 0.92, 0.03);  // right; the fitted skeleton is not quite the true one
       EXPECT_EQ(row[2], "not measured");
-      EXPECT_THAT(row[4], HasSubstr("popliteal"));
+      EXPECT_THAT(row[5], HasSubstr("popliteal"));
     }
 }
 

@@ -14,6 +14,7 @@
 #include "core/rom/poses/fit_preset.h"
 #include "core/rom/poses/range_postures.h"
 #include "core/rom/tests/rom_report.h"
+#include "core/rom/tests/threshold.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/resources.h"
 #include "tests/support/temporary_folder.h"
@@ -30,14 +31,16 @@ struct Shipped {
     preset = loadRomPreset(test::resourceDir(), name, model.skeleton);
     setStops(model.skeleton, preset);
     model.musculature = loadMusculature(test::resourceDir(), model.skeleton, name);
-    norms = loadRomNorms(test::resourceDir(), model.skeleton);
-    report = romReport(model, norms, name);
+    norms = loadClinicalTests(test::resourceDir(), model.skeleton);
+    report = romReport(model, norms, name, norms.reference_mass_kg);
   }
-  double reading_deg(const std::string& id) const { return simulateRomTest(model, norms.test(id)).angle_deg; }
+  double reading_deg(const std::string& id) const {
+    return simulateTest(model, norms.test(id), 'r', norms.test(id).threshold_Nm).angle_deg;
+  }
 
   Model model;
   RomPreset preset;
-  RomNorms norms;
+  ClinicalTests norms;
   RomReport report;
 };
 
@@ -115,8 +118,8 @@ TEST_P(Preset, SlackUnitsKeepTheirFibers) {
 /// Every target of the preset is reached before the examiner's moment.
 TEST_P(Preset, TestsGetAsFarAsTheirTargets) {
   for (const RomTarget& target : s().preset.targets()) {
-    const RomTest& test = s().norms.test(target.test);
-    const RomReading reading = simulateRomTest(s().model, test);
+    const ClinicalTest& test = s().norms.test(target.test);
+    const SimulatedTest reading = simulateTest(s().model, test, 'r', test.threshold_Nm);
     const double direction = test.to_deg > test.from_deg ? 1 : -1;
     if (target.to_stops)
       EXPECT_TRUE(reading.stopped_by_joint) << test.id << " " << reading.angle_deg;
@@ -173,26 +176,31 @@ TEST(AverageAdult, StraightLegRaiseIsLessThanWithABentKnee) {
 
 TEST(AverageAdult, KneeExtensionEndsAtTheJointAndNotAtMuscles) {
   const Shipped& s = shipped("average-adult");
-  EXPECT_TRUE(simulateRomTest(s.model, s.norms.test("knee_ext")).stopped_by_joint);
-  EXPECT_TRUE(simulateRomTest(s.model, s.norms.test("elb_ext")).stopped_by_joint);
+  EXPECT_TRUE(
+      simulateTest(s.model, s.norms.test("knee_ext"), 'r', s.norms.test("knee_ext").threshold_Nm).stopped_by_joint);
+  EXPECT_TRUE(
+      simulateTest(s.model, s.norms.test("elb_ext"), 'r', s.norms.test("elb_ext").threshold_Nm).stopped_by_joint);
 }
 
-TEST(SimulateRomTest, EndsAtTheThresholdAndIsTheSameOnBothSides) {
+TEST(SimulatedTest, EndsAtTheThresholdAndIsTheSameOnBothSides) {
   const Shipped& s = shipped("average-adult");
-  const RomTest& test = s.norms.test("popliteal_adult");
-  const RomReading right = simulateRomTest(s.model, test, 'r'), left = simulateRomTest(s.model, test, 'l');
+  const ClinicalTest& test = s.norms.test("popliteal_adult");
+  const SimulatedTest right = simulateTest(s.model, test, 'r', test.threshold_Nm),
+                      left = simulateTest(s.model, test, 'l', test.threshold_Nm);
   EXPECT_NEAR(right.moment_Nm, test.threshold_Nm, 0.1);
   EXPECT_NEAR(right.angle_deg, left.angle_deg, 0.01);
-  RomTest weaker = test;
+  ClinicalTest weaker = test;
   weaker.threshold_Nm = 20;
-  EXPECT_GT(simulateRomTest(s.model, weaker).angle_deg, right.angle_deg + 1);  // felt earlier: more lack of extension
+  EXPECT_GT(simulateTest(s.model, weaker, 'r', weaker.threshold_Nm).angle_deg,
+            right.angle_deg + 1);  // felt earlier: more lack of extension
 }
 
-TEST(SimulateRomTest, MovesSeveralCoordinatesToTheirStops) {
+TEST(SimulatedTest, MovesSeveralCoordinatesToTheirStops) {
   const Shipped& s = shipped("average-adult");
   Model limp = s.model;  // no muscle holds: only stops are left
   for (auto& unit : limp.musculature.units) unit.optimal_fiber_length_m *= 10;
-  const RomReading reading = simulateRomTest(limp, s.norms.test("neck_flex"));
+  const SimulatedTest reading =
+      simulateTest(limp, s.norms.test("neck_flex"), 'r', s.norms.test("neck_flex").threshold_Nm);
   EXPECT_TRUE(reading.stopped_by_joint);
   const auto stop_deg = [&](const char* name) {
     return limp.skeleton.coordinates[limp.skeleton.coordinateIndex(name)].stop_max_rad * 180 / 3.14159265358979323846;

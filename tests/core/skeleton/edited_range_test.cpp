@@ -27,7 +27,7 @@ const Model& bare() {
 RomTransform transformOf(const RomEdits& edits) {
   static const PoseSet poses = [] {
     const RomPreset preset = loadRomPreset(test::resourceDir(), kDefaultPreset, bare().skeleton);
-    const RomNorms norms = loadRomNorms(test::resourceDir(), bare().skeleton);
+    const ClinicalTests norms = loadClinicalTests(test::resourceDir(), bare().skeleton);
     return sampledPoseSet(bare().skeleton, preset, norms.tests, {.count = 2000});
   }();
   static const RomCentres centres = romCentres(bare().skeleton, poses.stream());

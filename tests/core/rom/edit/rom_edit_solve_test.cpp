@@ -29,7 +29,7 @@ const Model& reference() {
 RomEditSolver& solver() {
   static RomEditSolver s = [] {
     const RomPreset preset = loadRomPreset(test::resourceDir(), kDefaultPreset, reference().skeleton);
-    const RomNorms norms = loadRomNorms(test::resourceDir(), reference().skeleton);
+    const ClinicalTests norms = loadClinicalTests(test::resourceDir(), reference().skeleton);
     return RomEditSolver{reference(), sampledPoseSet(reference().skeleton, preset, norms.tests, {.count = 4000})};
   }();
   return s;

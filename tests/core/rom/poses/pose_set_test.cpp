@@ -25,8 +25,8 @@ const Skeleton& skeleton() {
   static const Skeleton loaded = loadReferenceSkeleton(test::resourceDir());
   return loaded;
 }
-const RomNorms& norms() {
-  static const RomNorms loaded = loadRomNorms(test::resourceDir(), skeleton());
+const ClinicalTests& norms() {
+  static const ClinicalTests loaded = loadClinicalTests(test::resourceDir(), skeleton());
   return loaded;
 }
 
