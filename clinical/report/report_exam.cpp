@@ -40,17 +40,17 @@ std::string measuredText(const ExamComparison& comparison, const PhysicalExam& e
   return entry && !entry->note.empty() ? std::string{kNotMeasured} + ": " + entry->note : kNotMeasured;
 }
 
-/// Marked like a bone: beyond 2 SD of the norm for the age, and beyond the measurement error of one examiner.
-std::string judgement(const ExamComparison& c, const ClinicalTest& test) {
-  if (!c.measured_deg || !test.form) return {};
-  return markOf(judgeMeasured(*c.measured_deg, test.form->measurement_sd_deg, c.norm_mean_deg, c.norm_sd_deg));
-}
-
 /// Verified marks are by test: the norm of the patient's age is one of its entries.
 bool verified(const ClinicalTest& test, const ExamComparison& c) {
   return std::ranges::any_of(test.norms_by_age, [&](const AgeNorm& n) {
     return n.norm.verified && test.written_deg(n.norm.mean_deg) == c.norm_mean_deg && n.norm.sd_deg == c.norm_sd_deg;
   });
+}
+
+/// Marked like a bone: beyond 2 SD of the norm, and beyond the measurement error of one examiner.
+std::string judgement(const ExamComparison& c, const ClinicalTest& test) {
+  if (!c.measured_deg) return {};
+  return markOf(judgeMeasured(*c.measured_deg, test.form->measurement_sd_deg, c.norm_mean_deg, c.norm_sd_deg));
 }
 
 std::string normText(const ClinicalTest& test, const ExamComparison& c) {
@@ -157,8 +157,7 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const Clinic
   if (table.rows.empty()) table.rows.push_back({kNotMeasured, "", "", "", "", "", "", "", ""});
   table.footnote =
       "\u25B2 \u25BC more than 2 SD above or below the norm, beyond the measurement error. Residual = measured - "
-      "model "
-      "after; above " +
+      "model after; above " +
       numberText(kNamedResidual_deg) +
       " deg its reason stands in the annex. Stop at = passive moment at which the examiner is taken to stop, scaled "
       "with body mass. \u2021 norm not yet verified at its source. Conventions and sources: annex. Not measured: " +

@@ -50,7 +50,7 @@ void addRun(Commands& commands) {
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const RunRequest request{stageOption(o->from), stageOption(o->to)};
-      Case c = loadCase(o->folder);
+      Case c;
       if (o->swap) {
         const RunReport report = swapSides(c, o->folder, session);
         if (report.refused || report.status != ExitStatus::Done)

@@ -172,16 +172,14 @@ TEST_F(CaseReport, ExamTableShowsBothSimulationsAndWhyATestIsMissing) {
 TEST_F(CaseReport, AMeasurementBeyondItsNormIsMarkedLikeABone) {
   const ClinicalTests protocol = loadClinicalTests(test::resourceDir());
   const ClinicalTest& test = protocol.test("popliteal_unilateral");
-  const double mean_deg = 26, sd_deg = 12;
+  constexpr double kMean_deg = 33, kSd_deg = 11;
   const auto shown = [&](double beyond_sd, double error_sd) {
     ExamFit fit;
-    ExamComparison comparison;
-    comparison.test = test.id;
-    comparison.side = 'r';
-    comparison.measured_deg = mean_deg + beyond_sd * sd_deg + error_sd * test.form->measurement_sd_deg;
-    comparison.norm_mean_deg = mean_deg;
-    comparison.norm_sd_deg = sd_deg;
-    fit.tests = {comparison};
+    fit.tests = {{.test = test.id,
+                  .side = 'r',
+                  .measured_deg = kMean_deg + beyond_sd * kSd_deg + error_sd * test.form->measurement_sd_deg,
+                  .norm_mean_deg = kMean_deg,
+                  .norm_sd_deg = kSd_deg}};
     return examTable(fit, {}, protocol).rows.at(0)[2];
   };
   EXPECT_THAT(shown(2, 2.1), HasSubstr("\u25B2"));
