@@ -55,7 +55,7 @@ class NewCaseTest : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  NewCase wanted_{.images = {folder_ / "scan.HONG", folder_ / "Gildong.2012"}};
+  NewCase wanted_{.images = {folder_ / "scan.HONG", folder_ / "Gildong.2012"}, .declared_spacing_mm = 0.2};
 };
 
 TEST_F(NewCaseTest, NoFileNameSaysWhoItIs) {
