@@ -81,8 +81,12 @@ TEST_P(Deformed, LengthsAndAxesHaveNoBias) {
       if (row.determined < 2) continue;
       // Required are 1 mm and 0.5 deg; a mean of 8 draws has a standard error of its own.
       const double chance = 3 * row.sd / std::sqrt(row.determined);
-      if (row.unit == "mm") EXPECT_LT(std::abs(row.bias), 1 + chance) << amount << " " << row.quantity;
-      if (isAxis(row.quantity)) EXPECT_LT(std::abs(row.bias), 0.5 + chance) << amount << " " << row.quantity;
+      if (row.unit == "mm") {
+        EXPECT_LT(std::abs(row.bias), 1 + chance) << amount << " " << row.quantity;
+      }
+      if (isAxis(row.quantity)) {
+        EXPECT_LT(std::abs(row.bias), 0.5 + chance) << amount << " " << row.quantity;
+      }
       covered += row.coverage * row.determined, all += row.determined;
     }
     EXPECT_GT(covered / all, 0.85) << amount;         // 95 % less three SD of some 50 independent ones
