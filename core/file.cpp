@@ -67,7 +67,10 @@ std::string readFile(const std::filesystem::path& file, std::uintmax_t max_bytes
         {file.string(), "size", "at most " + std::to_string(max_bytes) + " bytes", std::to_string(size)}};
   std::ostringstream content;
   content << in.rdbuf();
-  return std::move(content).str();
+  std::string text = std::move(content).str();
+  if (!error && std::filesystem::is_regular_file(file) && text.size() < size)  // a disk or network that failed midway
+    throw InputError{{file.string(), "content", std::to_string(size) + " bytes", std::to_string(text.size())}};
+  return text;
 }
 
 void writeFileAtomically(const std::filesystem::path& file, std::string_view content) {

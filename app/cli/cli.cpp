@@ -83,6 +83,7 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
 void addCommands(Commands& commands) {
   addRunCommands(commands);
   addNewCommand(commands);
+  addPatientCommand(commands);
   addStatusCommand(commands);
   addRigCommands(commands);
   addTriangulateCommand(commands);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "clinical/pipeline/side_check.h"
+
 namespace sinew {
 namespace {
 
@@ -47,6 +49,11 @@ void setSighting(Case& c, const std::string& name, int view, const Eigen::Vector
 
 void removeSighting(Case& c, std::string_view name, int view) {
   if (const auto found = sightingIn(c.sightings, name, view); found != c.sightings.end()) c.sightings.erase(found);
+}
+
+void exchangeSides(Case& c) {
+  applyExchange(c.sightings, c.exchanged_sides);
+  c.exchanged_sides.clear();
 }
 
 double typicalSigma_px(const Case& c) {

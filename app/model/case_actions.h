@@ -19,6 +19,9 @@ const Sighting* findSighting(const Case& c, std::string_view name, int view);
 void setSighting(Case& c, const std::string& name, int view, const Eigen::Vector2d& uv_px, double sigma_px);
 void removeSighting(Case& c, std::string_view name, int view);
 
+/// Gives the picks that were found exchanged the names of the other side.
+void exchangeSides(Case& c);
+
 /// The usual placement error of this case: median of its sightings' sigma, 1 px without any.
 double typicalSigma_px(const Case& c);
 

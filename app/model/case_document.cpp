@@ -1,8 +1,19 @@
 #include "app/model/case_document.h"
 
 #include "clinical/case/case_io.h"
+#include "core/file.h"
 
 namespace sinew {
+namespace {
+
+/// Text of the stored case; empty if there is none.
+std::string textOf(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (folder.empty() || !std::filesystem::exists(caseFile(folder), error)) return {};
+  return readFile(caseFile(folder));
+}
+
+}  // namespace
 
 CaseDocument::CaseDocument(std::filesystem::path resource_dir, QObject* parent)
     : QObject{parent}, resource_dir_{std::move(resource_dir)} {}
@@ -16,6 +27,7 @@ void CaseDocument::adopt(Case c, const std::filesystem::path& folder) {
   history_ = UndoHistory<Case>{std::move(c)};
   preview_.reset();
   folder_ = folder;
+  stored_text_ = textOf(folder_);
   announce();
   emit replaced();
 }
@@ -24,10 +36,18 @@ void CaseDocument::close() {
   adopt(Case{}, {});
 }
 
-void CaseDocument::save() {
+bool CaseDocument::wasChangedElsewhere() const {
+  return textOf(folder_) != stored_text_;
+}
+
+void CaseDocument::save(bool overwrite) {
   require(isOpen(), "no case to save");
+  if (!overwrite && wasChangedElsewhere())
+    throw InputError{
+        {caseFile(folder_).string(), "", "as it was opened", "changed by another program; not overwritten"}};
   saveCase(history_.current(), folder_);
   stored_ = history_.current();
+  stored_text_ = textOf(folder_);
   modified_ = false;
   emit saved();
 }

@@ -32,8 +32,11 @@ class CaseDocument : public QObject {
   /// Shows `c`, which has just been stored in `folder`.
   void adopt(Case c, const std::filesystem::path& folder);
   void close();
-  /// @throws InputError if the folder cannot be written; nothing is lost.
-  void save();
+  /// Whether another program wrote into the folder since the case was opened or saved.
+  bool wasChangedElsewhere() const;
+  /// @throws InputError if the folder cannot be written, or `overwrite` is not given and another program wrote into
+  /// it; nothing is lost.
+  void save(bool overwrite = false);
 
   /// Applies `change` to a copy; the copy becomes one undo step named `label`. If `change` throws InputError nothing
   /// happens but rejected(message). A change that alters nothing makes no step. Returns whether the case changed.
@@ -67,6 +70,7 @@ class CaseDocument : public QObject {
   UndoHistory<Case> history_{Case{}};
   std::optional<Case> preview_;
   Case stored_;
+  std::string stored_text_;  ///< of case.json as last seen
   std::filesystem::path folder_;
   bool modified_ = false;
   std::filesystem::path resource_dir_;

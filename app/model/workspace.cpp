@@ -1,5 +1,6 @@
 #include "app/model/workspace.h"
 
+#include "clinical/case/patient_body.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/retarget/prepared/reference.h"
 
@@ -7,12 +8,17 @@ namespace sinew {
 namespace {
 
 /// What the patient's model is made from, so that it is rebuilt only then.
-std::string modelKey(const Case& c) {
+std::string modelKey(const CaseDocument& document) {
+  const Case& c = document.current();
   if (!c.skeleton || c.skeleton->outcome != Outcome::Converged) return {};
   std::string key;
   for (const double value : toVector(c.skeleton->shape)) key += std::to_string(value) + ' ';
   if (c.musculature) key += c.musculature->sha256;
   if (c.model) key += c.model->sha256;
+  key +=
+      std::to_string(c.patient.mass_kg.value_or(0)) + ' ' + std::to_string(ageYears(c.patient, c.exam).value_or(-1));
+  for (const Stage stage : {Stage::Musculature, Stage::Exam})  // what is out of date is not used
+    key += document.stateOf(stage) == StageState::Done ? '1' : '0';
   return key;
 }
 
@@ -59,7 +65,7 @@ const NormTable& Workspace::norms() {
 
 std::shared_ptr<const Model> Workspace::patientModel() {
   const Case& c = document_.current();
-  const std::string key = modelKey(c);
+  const std::string key = modelKey(document_);
   if (key != patient_model_key_) {
     patient_model_.reset();
     patient_model_key_.clear();
@@ -69,6 +75,14 @@ std::shared_ptr<const Model> Workspace::patientModel() {
     patient_model_key_ = key;
   }
   return patient_model_;
+}
+
+QString Workspace::patientModelTitle() const {
+  const auto& skeleton = document_.current().skeleton;
+  if (!document_.isOpen() || !skeleton || skeleton->outcome != Outcome::Converged) return {};
+  if (document_.stateOf(Stage::Exam) == StageState::Done) return tr("This patient");
+  if (document_.stateOf(Stage::Musculature) == StageState::Done) return tr("This patient, before the examination");
+  return tr("This patient, bones only");
 }
 
 void Workspace::run(const RunRequest& request) {
@@ -90,10 +104,10 @@ void Workspace::openCase(const std::filesystem::path& folder) {
   }
 }
 
-void Workspace::saveCase() {
+void Workspace::saveCase(bool overwrite) {
   if (!document_.isOpen()) return;
   try {
-    document_.save();
+    document_.save(overwrite);
     emit notice(tr("Case saved"));
   } catch (const InputError& error) {
     emit problem(QString::fromUtf8(error.what()));
@@ -101,6 +115,16 @@ void Workspace::saveCase() {
 }
 
 void Workspace::makeDemo(const std::filesystem::path& folder, bool slot_scan) {
+  try {
+    expectDemoFolder(folder);
+  } catch (const InputError& error) {
+    emit problem(QString::fromUtf8(error.what()));
+    return;
+  }
+  if (std::filesystem::exists(folder / "case.json")) {  // an earlier demo
+    openCase(folder);
+    return;
+  }
   const bool started = jobs_.start(tr("Make the demo patient"), [=, this](const Job& job) -> JobRunner::Finish {
     SyntheticOptions options;
     options.resource_dir = resource_dir_;

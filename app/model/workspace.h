@@ -45,14 +45,18 @@ class Workspace : public QObject {
   /// is made from change. GUI thread. @throws InputError.
   std::shared_ptr<const Model> patientModel();
 
+  /// "This patient, bones only": the name of patientModel() in lists, with how far it has got; empty: there is none.
+  QString patientModelTitle() const;
+
   /// Runs the stages that wait, or one again with those before it that wait.
   void run(const RunRequest& request);
   void runStage(Stage stage) { run({stage, stage}); }
   void runAll() { run({}); }
 
   void openCase(const std::filesystem::path& folder);  ///< answers an unusable folder by problem()
-  void saveCase();
-  /// Makes the embedded demo patient in `folder` and opens it.
+  void saveCase(bool overwrite = false);
+  /// Makes the embedded demo patient in `folder` and opens it, or opens the one that is there; a folder that holds
+  /// anything else is refused by problem().
   void makeDemo(const std::filesystem::path& folder, bool slot_scan);
 
  signals:

@@ -25,7 +25,7 @@ double longestWord_mm(const QString& text, const Ink::TextStyle& style) {
   return longest;
 }
 
-/// Bar of left and right z-scores on a scale of +-4 SD; the grey middle is +-2 SD.
+/// Bar of right and left z-scores on a scale of +-4 SD; the grey middle is +-2 SD.
 void drawBars(Ink& ink, const QRectF& box, const std::array<double, 2>& z) {
   if (!std::isfinite(z[0]) && !std::isfinite(z[1])) return;
   const auto x = [&](double sd) {
@@ -35,8 +35,8 @@ void drawBars(Ink& ink, const QRectF& box, const std::array<double, 2>& z) {
   ink.fill({x(-2), middle - 0.75, x(2) - x(-2), 1.5}, shade::kHead);
   ink.line({x(-kZRange), middle}, {x(kZRange), middle}, 0.1, shade::kRule);
   ink.line({x(0), middle - 1}, {x(0), middle + 1}, 0.15, shade::kMuted);
-  if (std::isfinite(z[0])) ink.disc({x(z[0]), middle}, 0.62, Qt::black, false);
-  if (std::isfinite(z[1])) ink.disc({x(z[1]), middle}, 0.45, Qt::black, true);
+  if (std::isfinite(z[1])) ink.disc({x(z[1]), middle}, 0.62, Qt::black, false);
+  if (std::isfinite(z[0])) ink.disc({x(z[0]), middle}, 0.45, Qt::black, true);
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ double TableLayout::drawHead(Ink& ink, double left_mm, double top_mm) const {
     x += column_mm_[c];
   }
   if (bar_mm_ > 0) {
-    ink.text({x, top_mm + kRowGap_mm / 2, bar_mm_, head_mm_}, "z  \u25CB left \u25CF right",
+    ink.text({x, top_mm + kRowGap_mm / 2, bar_mm_, head_mm_}, "z  \u25CF right \u25CB left",
              {.size_mm = 0.86 * text_mm_, .align = Qt::AlignHCenter | Qt::AlignTop, .wrap = false});
     ink.text({x, top_mm + kRowGap_mm / 2 + 1.05 * text_mm_, bar_mm_, text_mm_}, "-4 ... grey +-2 ... +4 SD",
              {.size_mm = 0.66 * text_mm_, .align = Qt::AlignHCenter | Qt::AlignTop, .wrap = false});

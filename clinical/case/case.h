@@ -10,6 +10,7 @@
 #include "clinical/exam/physical_exam.h"
 #include "core/job.h"
 #include "core/skeleton/fit/fit_skeleton.h"
+#include "core/skeleton/fit/side_exchange.h"
 #include "imaging/rig/biplanar_rig.h"
 #include "imaging/rig/sighting.h"
 #include "imaging/rig/triangulate.h"
@@ -75,6 +76,7 @@ struct Case {
   // computed
   std::optional<BiplanarRig> rig;
   std::optional<Triangulation> landmarks;
+  std::vector<SideExchange> exchanged_sides;  ///< names of left and right exchanged, as the landmarks stage found
   std::optional<SkeletonFit> skeleton;
   std::optional<FileReference> musculature;  ///< retargeted to the skeleton, before the exam; named by its content
   std::optional<FileReference> model;        ///< results/model.json: after musculature and exam

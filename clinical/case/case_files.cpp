@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fstream>
 
 #include "clinical/case/case_io.h"
 #include "core/file.h"
@@ -32,6 +33,16 @@ FileReference importFile(const std::filesystem::path& source, const std::filesys
   const std::string content = readFile(source);
   writeFileAtomically(folder / relative_path, content);
   return {relative_path, sha256(content)};
+}
+
+std::string imageExtension(const std::filesystem::path& source) {
+  std::string head(132, '\0');
+  std::ifstream in{source, std::ios::binary};
+  in.read(head.data(), std::streamsize(head.size()));
+  if (head.substr(128) == "DICM") return ".dcm";  // first: its preamble may be the beginning of a TIFF
+  if (head.starts_with("\x89PNG")) return ".png";
+  if (head.starts_with(std::string_view{"II*\0", 4}) || head.starts_with(std::string_view{"MM\0*", 4})) return ".tif";
+  return ".dcm";
 }
 
 std::filesystem::path checkedFile(const FileReference& reference, const std::filesystem::path& folder) {

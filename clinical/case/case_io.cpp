@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "clinical/case/case_results_json.h"
+#include "clinical/case/patient_edit.h"
 #include "clinical/exam/physical_exam_json.h"
+#include "core/date_json.h"
 #include "core/file.h"
 #include "core/strict_json.h"
 #include "imaging/rig/biplanar_rig_json.h"
@@ -49,17 +51,6 @@ FileReference referenceFromJson(const JsonReader& json) {
   return file;
 }
 
-/// "2009", "2009-05" or "2009-05-31", or nothing.
-std::string dateFromJson(const JsonReader& json) {
-  constexpr std::string_view kPattern = "dddd-dd-dd";
-  const std::string date = json.text();
-  bool good = date.empty() || date.size() == 4 || date.size() == 7 || date.size() == 10;
-  for (std::size_t i = 0; good && i < date.size(); ++i)
-    good = kPattern[i] == 'd' ? date[i] >= '0' && date[i] <= '9' : date[i] == '-';
-  if (!good) json.fail("a date YYYY-MM-DD");
-  return date;
-}
-
 Json patientToJson(const Patient& p) {
   return {{"id", p.id},
           {"name", p.name},
@@ -77,8 +68,10 @@ Patient patientFromJson(const JsonReader& json) {
           .sex = json["sex"].oneOf({"F", "M", "O", ""}),
           .birth_date = dateFromJson(json["birth_date"]),
           .diagnosis = json["diagnosis"].text(),
-          .height_m = optionalFromJson<double>(json, "height_m", [](auto j) { return j.numberIn(0.3, 2.7); }),
-          .mass_kg = optionalFromJson<double>(json, "mass_kg", [](auto j) { return j.numberIn(1, 400); })};
+          .height_m = optionalFromJson<double>(json, "height_m",
+                                               [](auto j) { return j.numberIn(kMinHeight_m, kMaxHeight_m); }),
+          .mass_kg =
+              optionalFromJson<double>(json, "mass_kg", [](auto j) { return j.numberIn(kMinMass_kg, kMaxMass_kg); })};
 }
 
 Json imageToJson(const CaseImage& image) {
@@ -122,6 +115,7 @@ Sighting sightingFromJson(const JsonReader& json) {
 Json resultsToJson(const Case& c) {
   return {{"rig", optionalToJson(c.rig, rigToJson)},
           {"landmarks", optionalToJson(c.landmarks, triangulationToJson)},
+          {"exchanged_sides", exchangesToJson(c.exchanged_sides)},
           {"skeleton", optionalToJson(c.skeleton, skeletonFitToJson)},
           {"musculature", optionalToJson(c.musculature, referenceToJson)},
           {"model", optionalToJson(c.model, referenceToJson)},
@@ -130,9 +124,10 @@ Json resultsToJson(const Case& c) {
 }
 
 void readResults(const JsonReader& json, Case& c) {
-  json.allowOnly({"rig", "landmarks", "skeleton", "musculature", "model", "exam_fit", "report"});
+  json.allowOnly({"rig", "landmarks", "exchanged_sides", "skeleton", "musculature", "model", "exam_fit", "report"});
   c.rig = optionalFromJson<BiplanarRig>(json, "rig", rigFromJson);
   c.landmarks = optionalFromJson<Triangulation>(json, "landmarks", triangulationFromJson);
+  if (const auto exchanges = json.find("exchanged_sides")) c.exchanged_sides = exchangesFromJson(*exchanges);
   c.skeleton = optionalFromJson<SkeletonFit>(json, "skeleton", skeletonFitFromJson);
   c.musculature = optionalFromJson<FileReference>(json, "musculature", referenceFromJson);
   c.model = optionalFromJson<FileReference>(json, "model", referenceFromJson);
@@ -190,16 +185,24 @@ Case caseFromJson(const std::string& text, const std::string& where) {
   return fromJson({json, where});
 }
 
+std::filesystem::path caseFile(const std::filesystem::path& folder) {
+  const auto file = folder / kFileName;
+  std::error_code error;
+  if (!std::filesystem::is_symlink(file, error)) return file;
+  const auto target = std::filesystem::canonical(file, error);
+  return error ? file : target;
+}
+
 Case loadCase(const std::filesystem::path& folder) {
   const auto file = folder / kFileName;
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    throw InputError{{folder.string(), "", "a case folder", "no case.json in it"}};
+    throw InputError{{folder.string(), "", "a case folder", error ? error.message() : "no case.json in it"}};
   return caseFromJson(readFile(file, kMaxBytes), file.string());
 }
 
 void saveCase(const Case& c, const std::filesystem::path& folder) {
-  const auto file = folder / kFileName;
+  const auto file = caseFile(folder);
   const std::string text = caseToJson(c);
   caseFromJson(text, file.string());  // what could not be read back is never written over what can
   writeFileAtomically(file, text);

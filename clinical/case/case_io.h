@@ -6,6 +6,9 @@
 
 namespace sinew {
 
+/// `folder`/case.json; what it points to, if it is a symbolic link.
+std::filesystem::path caseFile(const std::filesystem::path& folder);
+
 /// Reads `folder`/case.json ("sinew.case", version 1). @throws InputError: one line, where, field, expected, found;
 /// a version of the future is refused.
 Case loadCase(const std::filesystem::path& folder);
@@ -24,6 +27,9 @@ bool staysInFolder(const std::string& relative_path);
 /// ("images/view1.dcm") and returns its reference.
 FileReference importFile(const std::filesystem::path& source, const std::filesystem::path& folder,
                          const std::string& relative_path);
+
+/// ".dcm", ".tif" or ".png": what a radiograph is by its content, never by its name, which may hold a person's.
+std::string imageExtension(const std::filesystem::path& source);
 
 /// @throws InputError if the file is missing or its content is not what the reference says.
 std::filesystem::path checkedFile(const FileReference& reference, const std::filesystem::path& folder);

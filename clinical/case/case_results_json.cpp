@@ -167,6 +167,23 @@ Triangulation triangulationFromJson(const JsonReader& json) {
   return landmarks;
 }
 
+Json exchangesToJson(const std::vector<SideExchange>& exchanges) {
+  Json list = Json::array();
+  for (const auto& e : exchanges)
+    list.push_back({{"view", e.view + 1}, {"landmarks", e.landmarks}, {"whole", e.whole}});
+  return list;
+}
+
+std::vector<SideExchange> exchangesFromJson(const JsonReader& json) {
+  std::vector<SideExchange> exchanges;
+  for (const auto& e : json.items()) {
+    e.allowOnly({"view", "landmarks", "whole"});
+    exchanges.push_back({viewFromJson(e["view"]), {}, e["whole"].boolean()});
+    for (const auto& name : e["landmarks"].items()) exchanges.back().landmarks.push_back(name.text());
+  }
+  return exchanges;
+}
+
 /// An angle or a distance with its interval, in the unit that the key names.
 Json amountToJson(const ExposureMovement::Amount& amount) {
   return {numberOrNull(amount.value), numberOrNull(amount.lower95), numberOrNull(amount.upper95)};

@@ -10,6 +10,9 @@ namespace sinew {
 Json triangulationToJson(const Triangulation& landmarks);
 Triangulation triangulationFromJson(const JsonReader& json);
 
+Json exchangesToJson(const std::vector<SideExchange>& exchanges);
+std::vector<SideExchange> exchangesFromJson(const JsonReader& json);
+
 Json skeletonFitToJson(const SkeletonFit& fit);
 SkeletonFit skeletonFitFromJson(const JsonReader& json);
 

@@ -93,12 +93,12 @@ SideSolution solveSide(const SideProblem& problem, const std::vector<double>& st
     ceres_problem.SetParameterLowerBound(solution.factors.data(), g, least);
     ceres_problem.SetParameterUpperBound(solution.factors.data(), g, most);
   }
-  const int iterations = nearby ? 8 : 60;
+  const int iterations = nearby ? 20 : 60;
   const Job quiet{.stop = job.stop};
   CeresJob monitor{quiet, "solving muscle lengths", iterations};
   ceres::Solver::Options options = solverOptions(monitor, iterations);
-  options.function_tolerance = nearby ? 1e-3 : 1e-8;
-  options.parameter_tolerance = nearby ? 1e-4 : 1e-7;
+  options.function_tolerance = nearby ? 1e-5 : 1e-8;
+  options.parameter_tolerance = nearby ? 1e-5 : 1e-7;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
   solution.outcome = outcomeOf(summary);

@@ -1,5 +1,7 @@
 #include "clinical/exam/physical_exam_json.h"
 
+#include "core/date_json.h"
+
 namespace sinew {
 namespace {
 
@@ -111,7 +113,8 @@ Json examToJson(const PhysicalExam& exam) {
 PhysicalExam examFromJson(const JsonReader& json) {
   json.expectFormat("sinew.exam", 1);
   json.allowOnly({"format", "version", "examiner", "date", "leave_in_norm", "entries"});
-  PhysicalExam exam{.examiner = optionalText(json, "examiner"), .date = optionalText(json, "date"), .entries = {}};
+  PhysicalExam exam{.examiner = optionalText(json, "examiner"), .date = {}, .entries = {}};
+  if (const auto date = json.find("date")) exam.date = dateFromJson(*date);
   if (const auto leave = json.find("leave_in_norm")) exam.leave_in_norm = leave->boolean();
   for (const auto& entry : json["entries"].items()) exam.entries.push_back(entryFromJson(entry));
   return exam;

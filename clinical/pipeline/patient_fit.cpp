@@ -29,11 +29,6 @@ FitOptions optionsFrom(const std::filesystem::path& resource_dir) {
   return options;
 }
 
-bool isKnown(const Skeleton& reference, const Sighting& sighting) {
-  const auto landmark = std::ranges::find(reference.landmarks, sighting.name, &Landmark::name);
-  return landmark != reference.landmarks.end() && landmark->segment < reference.movingSegmentCount();
-}
-
 }  // namespace
 
 std::vector<FitView> fitViewsOf(const BiplanarRig& rig) {
@@ -66,35 +61,6 @@ SkeletonFit fitPatient(const Skeleton& reference, const BiplanarRig& rig, std::s
   for (const auto& landmark : loadLandmarkProtocol(resource_dir)) options.offered_landmarks.push_back(landmark.name);
   return fitSkeleton(reference, fitViewsOf(rig), observationsOf(sightings), loadShapePriors(resource_dir), options,
                      job);
-}
-
-ExchangeFinding examineSides(const Skeleton& reference, const BiplanarRig& rig, std::span<const Sighting> sightings,
-                             const std::filesystem::path& resource_dir, const Job& job) {
-  std::vector<Sighting> known;
-  std::ranges::copy_if(sightings, std::back_inserter(known), [&](auto& s) { return isKnown(reference, s); });
-  if (known.empty()) return {};
-  ExchangeOptions options;
-  if (rig.patient_aligned) options.anterior_W = Eigen::Vector3d::UnitX();
-  return findExchangedSides(reference, fitViewsOf(rig), observationsOf(known), loadShapePriors(resource_dir),
-                            optionsFrom(resource_dir), options, job);
-}
-
-Warnings warningsOf(const ExchangeFinding& finding) {
-  if (finding.exchanges.empty()) return {};
-  return {{std::string{kSidesExchanged},
-           "left and right are exchanged: " + finding.what +
-               ". The picks fit far better with the names of the other side; exchange them (--swap, or the button on "
-               "the landmarks page), or check the side markers"}};
-}
-
-bool disagreeGrossly(const SkeletonFit& fit, std::span<const SideExchange> whole_exchanges) {
-  return !whole_exchanges.empty() ||
-         std::ranges::any_of(fit.warnings, [](const Warning& w) { return w.code == "picks_disagree"; });
-}
-
-void applyExchange(std::vector<Sighting>& sightings, std::span<const SideExchange> exchanges) {
-  for (auto& s : sightings)
-    if (isExchanged(exchanges, s.name, s.view)) s.name = withOtherSide(s.name);
 }
 
 }  // namespace sinew

@@ -13,6 +13,7 @@ Job partOf(const Job& job, Stage stage, double from, double to) {
   Job part;
   part.stop = job.stop;
   part.report_to = [&job, title = titleOf(stage), from, to](double fraction, std::string_view what) {
+    if (fraction >= 1) return;  // the end of a stage is no news: the next one or the result follows
     job.report(from + (to - from) * std::clamp(fraction, 0.0, 1.0),
                what.empty() || what == title ? title : title + ": " + std::string{what});
   };
@@ -74,14 +75,14 @@ CaseRun runCase(const Case& c, const RunRequest& request, const PipelineContext&
     try {
       const double done = double(run.ran.size());
       run.c = runStage(run.c, stage, context, partOf(job, stage, done / ahead, std::min(1.0, (done + 1) / ahead)));
+      run.ran.push_back(stage);
+      run.outcome = run.c.stages.at(stage).outcome;
+      if (observer.ended) observer.ended(run.c, stage);
     } catch (const InputError& error) {
       run.refused = error;
       run.outcome = Outcome::NotRun;
       break;
     }
-    run.ran.push_back(stage);
-    run.outcome = run.c.stages.at(stage).outcome;
-    if (observer.ended) observer.ended(run.c, stage);
     if (run.outcome != Outcome::Converged) break;
   }
   return run;

@@ -19,8 +19,9 @@ struct RunRequest {
 struct RunObserver {
   /// The stage was not run: it is done, or there is nothing to run it from.
   std::function<void(const Case&, const StageStatus&)> passed_over;
-  /// The stage ran; its record is in the case. The place to save: an interrupted run then loses nothing.
-  std::function<void(const Case&, Stage)> ended;
+  /// The stage ran; its record is in the case. The place to save: an interrupted run then loses nothing. It may take
+  /// into the case what others entered meanwhile, and refuse the result by InputError.
+  std::function<void(Case&, Stage)> ended;
 };
 
 /// What came of a run.

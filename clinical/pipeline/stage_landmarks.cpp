@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "clinical/pipeline/side_check.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
@@ -12,7 +13,8 @@
 namespace sinew {
 namespace {
 
-constexpr const char* kResources[] = {"clinical/landmark_protocol.json", "skeleton/landmarks.csv",
+constexpr const char* kResources[] = {"clinical/landmark_protocol.json", "clinical/shape_priors.json",
+                                      "rom/average-adult.json", "skeleton/landmarks.csv",
                                       "skeleton/reference_skeleton.json"};
 
 std::string inputs(const Case& c) {
@@ -64,11 +66,15 @@ Warnings coverage(const Case& c, const PipelineContext& context) {
 }
 
 /// Position of every landmark seen in two views or more, and which ones of the protocol are missing.
-StageRun run(Case& c, const PipelineContext& context, const Job&) {
+StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   StageRun run;
   c.landmarks = triangulateAll(*c.rig, c.sightings);
   addWarnings(run.warnings, c.landmarks->warnings);
   addWarnings(run.warnings, coverage(c, context));
+  const auto finding = examineSides(context.reference->skeleton, *c.rig, c.sightings, context.resource_dir, job);
+  if (job.cancelled()) return {.outcome = Outcome::Cancelled, .warnings = {}, .summary = {}};
+  c.exchanged_sides = finding.exchanges;
+  addWarnings(run.warnings, warningsOf(finding));
   run.summary = std::to_string(c.landmarks->points.size()) +
                 (c.rig->views.size() == 2 ? " points in both views" : " points in two views or more");
   if (std::isfinite(c.landmarks->rms_px)) run.summary += ", RMS " + rounded(c.landmarks->rms_px, 2) + " px";
@@ -77,6 +83,7 @@ StageRun run(Case& c, const PipelineContext& context, const Job&) {
 
 void copyResult(Case& to, const Case& from) {
   to.landmarks = from.landmarks;
+  to.exchanged_sides = from.exchanged_sides;
 }
 
 std::string entered(const Case& c) {
@@ -97,7 +104,7 @@ std::string resultLine(const Case& c) {
 constinit const StageRow kLandmarksRow{.stage = Stage::Landmarks,
                                        .name = "landmarks",
                                        .title = "Landmarks",
-                                       .revision = 1,
+                                       .revision = 2,
                                        .resources = kResources,
                                        .inputs = inputs,
                                        .has_result = hasResult,

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "clinical/pipeline/patient_fit.h"
+#include "clinical/pipeline/side_check.h"
 #include "clinical/pipeline/stage_inputs_json.h"
 #include "clinical/pipeline/stage_table.h"
 #include "clinical/pipeline/stage_words.h"
@@ -48,6 +49,11 @@ StageRun run(Case& c, const PipelineContext& context, const Job& job) {
   addWarnings(run.warnings, c.skeleton->warnings);
   run.outcome = c.skeleton->outcome;
   run.summary = summaryOf(*c.skeleton);
+  if (run.outcome == Outcome::Converged && disagreeGrossly(*c.skeleton, c.exchanged_sides)) {
+    run.outcome = Outcome::NotConverged;
+    run.summary = "the picks disagree grossly: no figure is to be used";
+    if (!c.exchanged_sides.empty()) run.summary += "; left and right are exchanged, see the landmarks";
+  }
   return run;
 }
 

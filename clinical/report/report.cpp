@@ -5,6 +5,7 @@
 #include <set>
 
 #include "clinical/case/case_io.h"
+#include "clinical/case/patient_edit.h"
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/report/report_tables.h"
 #include "core/version.h"
@@ -139,6 +140,7 @@ Report makeReport(const Case& c, const std::filesystem::path& case_dir, const Mo
   report.passive_moments = passiveMomentPlots(c, modelBeforeExam(c, reference, case_dir, resource_dir), protocol);
   report.footer = footerOf(c);
   report.warnings = warningsOf(c);
+  for (const auto& doubt : patientDoubts(c, imaging_date)) report.warnings.push_back("Patient: " + doubt.message);
   report.disclaimer = kDisclaimer;
   return report;
 }

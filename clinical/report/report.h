@@ -21,7 +21,7 @@ struct ReportTable {
   std::vector<std::vector<std::string>> rows;
   std::string footnote;              ///< what the marks mean: stands under the table
   std::vector<std::string> sources;  ///< conventions and norm sources, for the annex
-  /// Left and right z-score of each row, for a bar; NaN = no norm. Empty: the table has no bars.
+  /// Right and left z-score of each row, for a bar; NaN = no norm. Empty: the table has no bars.
   std::vector<std::array<double, 2>> z_scores;
 };
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "clinical/report/figure_texts.h"
+#include "clinical/report/judgement.h"
 #include "clinical/report/report_tables.h"
 
 namespace sinew {
@@ -45,12 +46,9 @@ std::string differenceText(const BoneFigure* left, const BoneFigure* right) {
   return signedText(difference, decimalsOf(left->unit)) + (real ? " *" : "");
 }
 
-/// A z-score shown as abnormal only if it is beyond 2 SD and the interval excludes the border of 2 SD.
 std::string judgement(const BoneFigure* f, const Norm& norm) {
-  if (!usable(f) || !(std::abs(norm.zScore(f->value)) > 2)) return {};
-  const double border = norm.mean + std::copysign(2 * norm.sd, f->value - norm.mean);
-  if (f->lower95 <= border && border <= f->upper95) return {};
-  return f->value > norm.mean ? " \u25B2" : " \u25BC";
+  if (!usable(f) || !norm.comparable) return {};
+  return markOf(judge(f->value, f->lower95, f->upper95, norm.mean, norm.sd));
 }
 
 std::string normText(const std::optional<Norm>& norm, const std::string& unit) {
@@ -67,8 +65,8 @@ std::string normText(const std::optional<Norm>& norm, const std::string& unit) {
 ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const NormQuery& who) {
   ReportTable table;
   table.title = "Bones";
-  table.columns = {"Figure (convention)",   "Unit",         "Left (95 % interval)",
-                   "Right (95 % interval)", "Right - left", "Norm for age, sex, height"};
+  table.columns = {"Figure (convention)",  "Unit",         "Right (95 % interval)",
+                   "Left (95 % interval)", "Right - left", "Norm for age, sex, height"};
   std::set<std::string> shown;
   for (const auto& figure : fit.figures) {
     if (!shown.insert(figure.quantity).second) continue;
@@ -83,8 +81,8 @@ ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const Norm
       z[0] = score(&figure);
     } else {
       const auto *left = find(fit, figure.quantity, "l"), *right = find(fit, figure.quantity, "r");
-      row.insert(row.end(), {judged(left), judged(right), differenceText(left, right)});
-      z = {score(left), score(right)};
+      row.insert(row.end(), {judged(right), judged(left), differenceText(left, right)});
+      z = {score(right), score(left)};
     }
     row.push_back(normText(norm, figure.unit));
     if (norm)

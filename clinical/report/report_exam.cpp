@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "clinical/report/judgement.h"
 #include "clinical/report/report_tables.h"
 #include "core/rom/tests/clinical_sweep.h"
 
@@ -44,6 +45,12 @@ bool verified(const ClinicalTest& test, const ExamComparison& c) {
   return std::ranges::any_of(test.norms_by_age, [&](const AgeNorm& n) {
     return n.norm.verified && test.written_deg(n.norm.mean_deg) == c.norm_mean_deg && n.norm.sd_deg == c.norm_sd_deg;
   });
+}
+
+/// Marked like a bone: beyond 2 SD of the norm, and beyond the measurement error of one examiner.
+std::string judgement(const ExamComparison& c, const ClinicalTest& test) {
+  if (!c.measured_deg) return {};
+  return markOf(judgeMeasured(*c.measured_deg, test.form->measurement_sd_deg, c.norm_mean_deg, c.norm_sd_deg));
 }
 
 std::string normText(const ClinicalTest& test, const ExamComparison& c) {
@@ -138,9 +145,9 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const Clinic
         not_examined.back() = test.title;
       continue;
     }
-    table.rows.push_back({test.title, sideText(comparison.side), measuredText(comparison, exam),
-                          normText(test, comparison), numberText(comparison.simulated_before_deg),
-                          numberText(comparison.simulated_after_deg),
+    table.rows.push_back({test.title, sideText(comparison.side),
+                          measuredText(comparison, exam) + judgement(comparison, test), normText(test, comparison),
+                          numberText(comparison.simulated_before_deg), numberText(comparison.simulated_after_deg),
                           comparison.measured_deg ? signedText(comparison.residual_deg, 1) : kNotMeasured,
                           numberText(comparison.threshold_Nm), limitText(comparison)});
     if (!noted.insert(test.id).second) continue;
@@ -149,7 +156,9 @@ ReportTable examTable(const ExamFit& fit, const PhysicalExam& exam, const Clinic
   }
   if (table.rows.empty()) table.rows.push_back({kNotMeasured, "", "", "", "", "", "", "", ""});
   table.footnote =
-      "Residual = measured - model after; above " + numberText(kNamedResidual_deg) +
+      "\u25B2 \u25BC more than 2 SD above or below the norm, beyond the measurement error. Residual = measured - "
+      "model after; above " +
+      numberText(kNamedResidual_deg) +
       " deg its reason stands in the annex. Stop at = passive moment at which the examiner is taken to stop, scaled "
       "with body mass. \u2021 norm not yet verified at its source. Conventions and sources: annex. Not measured: " +
       joined(not_examined, ", ", "none") + ".";

@@ -21,13 +21,13 @@ std::string numberText(double value, int decimals = 0);
 std::string signedText(double value, int decimals = 0);
 /// "Right" or "Left".
 std::string sideText(char side);
-/// A date from DICOM ("20260504") as 2026-05-04; any other text stays.
+/// A date from DICOM ("20260504") as 2026-05-04; what is no day says so.
 std::string dateText(const std::string& date);
 /// A name from DICOM ("Hong^Gildong=...=...") as people write it.
 std::string personText(const std::string& dicom_name);
 
-/// Left, right, difference, norm and z-scores of every figure. A midline figure stands in the left column and spans
-/// into the right one (kSpan).
+/// Right, left, difference, norm and z-scores of every figure: sides in this order in every table. A midline figure
+/// stands in the right column and spans into the left one (kSpan).
 ReportTable boneTable(const SkeletonFit& fit, const NormTable& norms, const NormQuery& who);
 
 /// Measured, norm, simulated before and after, residual, threshold, what limits: a row a test and side of which

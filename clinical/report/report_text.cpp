@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "clinical/report/report_tables.h"
+#include "core/date.h"
 
 namespace sinew {
 
@@ -25,7 +26,8 @@ std::string sideText(char side) {
 }
 
 std::string dateText(const std::string& date) {
-  return date.size() == 8 ? date.substr(0, 4) + "-" + date.substr(4, 2) + "-" + date.substr(6, 2) : date;
+  const auto known = dateFromText(date);
+  return known ? isoText(*known) : date.empty() ? "" : "no day of the calendar";
 }
 
 std::string personText(const std::string& dicom_name) {

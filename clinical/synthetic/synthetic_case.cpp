@@ -103,6 +103,13 @@ Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference,
   return c;
 }
 
+void expectDemoFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error) || std::filesystem::is_empty(folder, error)) return;
+  if (std::filesystem::exists(folder / "case.json", error) && loadCase(folder).truth) return;
+  throw InputError{{folder.string(), "", "an empty folder or an earlier demo", "other files, which are kept"}};
+}
+
 std::vector<TruthComparison> compareWithTruth(const Case& c) {
   std::vector<TruthComparison> rows;
   if (!c.truth || !c.skeleton) return rows;

@@ -49,6 +49,9 @@ Radiograph renderRadiograph(const Model& model, const Posture& posture, const Vi
 Radiograph renderPhantom(const CalibrationObject& phantom, const View& view, const SyntheticOptions& options,
                          const std::string& view_position, const Job& job = {});
 
+/// Only an empty folder or an earlier demo is written into. @throws InputError otherwise.
+void expectDemoFolder(const std::filesystem::path& folder);
+
 /// Writes a whole case folder: the DICOM radiographs, phantom images and beads (cone beam), picks, exam, truth.
 /// The case has run no stage yet. Cancelled: returns an empty case and leaves no case.json.
 Case writeSyntheticCase(const SyntheticPatient& patient, const Model& reference, const SyntheticOptions& options,

@@ -4,6 +4,7 @@
 
 #include "core/angle.h"
 #include "core/random_source.h"
+#include "imaging/rig/rig_uncertainty.h"
 
 namespace sinew {
 namespace {
@@ -111,15 +112,17 @@ void setGeometryTags(Radiograph& film, const FilmGeometry& geometry, SyntheticRi
   tags.patient_orientation = geometry.patient_orientation;
   tags.positioner_primary_angle_deg = geometry.primary_angle_deg;
   tags.distance_source_to_detector_mm = geometry.source_to_detector_mm;
-  tags.distance_source_to_patient_mm = geometry.source_to_isocenter_mm;
+  // A machine knows its bucky, not the patient; he stands in the middle of where rigFromDicom() expects him.
+  const double table_mm = geometry.source_to_isocenter_mm + 0.5e3 * kObjectDepth_m;
+  tags.distance_source_to_patient_mm = kind == SyntheticRig::SlotScan ? geometry.source_to_isocenter_mm : table_mm;
   tags.imager_column_mm = tags.imager_row_mm = geometry.pixel_mm;
-  const double magnification = geometry.source_to_detector_mm / geometry.source_to_isocenter_mm;
   if (kind == SyntheticRig::SlotScan) {
+    const double magnification = geometry.source_to_detector_mm / geometry.source_to_isocenter_mm;
     tags.imager_column_mm = geometry.pixel_mm * magnification;  // the fan magnifies across the slot only
     tags.distance_source_to_isocenter_mm = geometry.source_to_isocenter_mm;
     film.spacing = PixelSpacing{geometry.pixel_mm, geometry.pixel_mm, PixelScaleSource::Geometry};
   } else {
-    tags.estimated_magnification = magnification;
+    tags.estimated_magnification = geometry.source_to_detector_mm / table_mm;
     film.spacing = PixelSpacing{geometry.pixel_mm, geometry.pixel_mm, PixelScaleSource::ImagerAtDetector};
   }
 }

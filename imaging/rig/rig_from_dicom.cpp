@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "imaging/rig/rig_uncertainty.h"
+
 namespace sinew {
 namespace {
 
@@ -169,15 +171,19 @@ void requireSameRows(std::span<const Radiograph> images, std::span<const RigView
                         "The images do not share a frame of reference: were they scanned together?"});
 }
 
-/// Distance source - isocentre [m] and the pinhole of a flat detector placed as the tags say.
+/// Distance source - patient [m], the middle of where he can stand, and the pinhole of a flat detector placed as the
+/// tags say.
 std::pair<double, ConeBeam> nominalConeBeam(const Radiograph& image, int view) {
   const RadiographTags& t = image.tags;
   const double detector_mm = needed(t.distance_source_to_detector_mm, view, "Distance Source to Detector");
   std::optional<double> patient_mm = t.distance_source_to_patient_mm;
   if (!patient_mm && t.estimated_magnification) patient_mm = detector_mm / *t.estimated_magnification;
-  const double source_mm = needed(patient_mm, view, "Distance Source to Patient");
-  if (source_mm >= detector_mm)
-    refuse(view, "Distance Source to Patient", "less than to the detector", std::to_string(source_mm) + " mm");
+  const double table_mm = needed(patient_mm, view, "Distance Source to Patient");
+  if (table_mm >= detector_mm)
+    refuse(view, "Distance Source to Patient", "less than to the detector", std::to_string(table_mm) + " mm");
+  const double source_mm = table_mm - 0.5 * kObjectDepth_m / kMillimetre_m;
+  if (source_mm <= 0)
+    refuse(view, "Distance Source to Patient", "more than the depth of a patient", std::to_string(table_mm) + " mm");
   ConeBeam c;
   if (t.imager_column_mm && t.imager_row_mm) {
     c.fx_px = detector_mm / *t.imager_column_mm;
@@ -269,7 +275,11 @@ BiplanarRig rigFromDicom(std::span<const Radiograph> images) {
   } else {
     requireDifferentBeams(rig.views);
     warnings.push_back(
-        {"uncalibrated", "The geometry comes from nominal distances and angles alone: lengths are good to 3-5 %."});
+        {"uncalibrated",
+         "The geometry comes from nominal distances and angles alone. The distance to the patient is that to the "
+         "table or bucky; the bones are taken to stand up to 0.3 m before it, so all lengths may be wrong together "
+         "by "
+         "3-5 % and more, as their intervals say. Calibrate with a phantom, or import a rig, for millimetres."});
   }
   if (std::sin(angleBetweenViews_rad(rig)) < std::sin(60 * kDegree_rad))
     warnings.push_back({"views_not_orthogonal", "The two beams are less than 60 deg apart: depth is less certain."});

@@ -26,8 +26,10 @@ namespace sinew {
 // images is the same height. Rows and row spacing must agree.
 //
 // Nominal cone beam: no such distance, but Distance Source to Detector (0018,1110) = SID, to Patient (0018,1111) =
-// SOD and Imager Pixel Spacing: f = SID / imager spacing, principal point at the middle of the image, source at
-// distance SOD from the isocentre. Warning "uncalibrated": lengths are good to 3-5 %.
+// SOD and Imager Pixel Spacing: f = SID / imager spacing, principal point at the middle of the image. SOD is the
+// distance to the table or bucky, not to the bone: a bound. The bones stand anywhere within kObjectDepth_m before it
+// (rig_uncertainty.h), so the source is placed SOD - kObjectDepth_m / 2 from the isocentre, and the fit is told how
+// little that is known. Warning "uncalibrated": lengths are good to 3-5 %.
 
 /// Rig of a frontal radiograph, a lateral one and any others (an oblique exposure); method "dicom_slot_scan" (one
 /// exposure) or "dicom_nominal" (an exposure each).

@@ -116,17 +116,20 @@ Trial runTrial(const Study& study, int seed) {
   const ShapeParameters shape = drawShape(study.priors, draw.engine());
   const Posture posture = drawStandingPosture(study.skeleton, draw.engine());
   const auto observations = observe(study, shape, posture, draw);
-  std::vector<FitView> views;
-  for (const View& view : study.rig.views) {
-    CalibrationRecord told;
-    told.method = study.disturbance.nominal ? "dicom_nominal"
-                  : study.rig.simultaneous  ? "dicom_slot_scan"
-                                            : "bead_phantom";
-    told.accuracy_mm = 0.3;  // what bead calibrations of the synthetic patients state
-    views.push_back({view, study.rig.simultaneous ? 0 : static_cast<int>(views.size()), uncertaintyOf(told, view)});
-  }
   FitOptions options;
-  options.definition_errors = definitionErrors(study.protocol);
+  std::vector<FitView> views = exactViews(study.rig.views);
+  if (!study.disturbance.exact) {
+    options.definition_errors = definitionErrors(study.protocol);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      CalibrationRecord told;
+      told.method = study.disturbance.nominal ? "dicom_nominal"
+                    : study.rig.simultaneous  ? "dicom_slot_scan"
+                                              : "bead_phantom";
+      told.accuracy_mm = 0.3;  // what bead calibrations of the synthetic patients state
+      views[i].uncertainty = uncertaintyOf(told, views[i].view);
+      views[i].exposure = study.rig.simultaneous ? 0 : static_cast<int>(i);
+    }
+  }
   const double begin_ms = threadTime_ms();
   Trial trial{boneFigures(study.skeleton, shape, posture),
               fitSkeleton(study.skeleton, views, observations, study.priors, options), 0};

@@ -34,6 +34,7 @@ struct Disturbance {
                                            ///< to, of either sign
   double frame_error_mm = 0, frame_error_deg = 0;  ///< SD of shifts and turns of every view by itself
   bool nominal = false;  ///< what the fit is told of the geometry: nominal, otherwise calibrated with beads
+  bool exact = false;    ///< the fit is told that views and landmarks are exact, and taken at one instant
 };
 
 /// The rows that docs/validation.md is about, and others, never looked at while the priors were chosen.

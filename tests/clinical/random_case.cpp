@@ -52,7 +52,7 @@ BiplanarRig RandomCase::rig() {
 }
 
 PhysicalExam RandomCase::exam() {
-  PhysicalExam exam{text(), text(), {}};
+  PhysicalExam exam{text(), coin() ? "2024-02-29" : "", {}};
   for (int i = below(5); i > 0; --i) {
     ExamEntry entry{
         .test = "test_" + std::to_string(i), .side = side(), .measured_deg = {}, .note = text(), .threshold_Nm = {}};
@@ -164,6 +164,7 @@ Case RandomCase::make() {
   if (coin()) c.truth = {figures(), factors(), static_cast<unsigned>(below(1 << 30))};
   if (coin()) c.rig = rig();
   if (coin()) c.landmarks = triangulation();
+  if (coin()) c.exchanged_sides = {{below(3), {"ankle", text()}, coin()}};
   if (coin()) c.skeleton = skeletonFit();
   if (coin()) c.musculature = file("results/musculature/0123456789ab.json");
   if (coin()) c.model = file("results/model.json");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/cli/support/commands.h"
+#include "app/cli/support/swap_sides.h"
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_results_json.h"
 #include "clinical/exam/physical_exam_json.h"
@@ -40,6 +41,7 @@ std::string figureRemarks(const SkeletonFit& fit, const NormTable& norms,
 void addFit(Commands& commands) {
   struct Options {
     std::string rig, sightings, output;
+    bool swap = false;
   };
   auto o = std::make_shared<Options>();
   auto& command = addCommand(commands.app, "fit", "shape and posture of the skeleton from landmark picks",
@@ -47,22 +49,30 @@ void addFit(Commands& commands) {
   command.add_option("--rig", o->rig, "rig file")->required();
   command.add_option("--sightings", o->sightings, "CSV file of picks: name,view,u_px,v_px[,sigma_px]")->required();
   command.add_option("-o,--output", o->output, "model file of the fitted shape");
+  command.add_flag("--swap", o->swap, "exchange left and right where they are found exchanged");
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const BiplanarRig rig = loadRig(o->rig);
-      const auto sightings = loadSightings(o->sightings);
-      const auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
+      auto sightings = loadSightings(o->sightings);
+      const auto exchanges = examineAndSwap(session, rig, sightings, o->swap);
+      auto fit = fitPatient(session.reference().skeleton, rig, sightings, session.resourceDir(), session.job());
       session.warn(fit.warnings);
+      if (fit.outcome == Outcome::Converged && disagreeGrossly(fit, exchanges)) {
+        fit.outcome = Outcome::NotConverged;
+        fit.figures.clear();  // withheld: they would be believed
+      }
       std::string text =
           figureTable(fit.figures) + "\n" + std::string{nameOf(fit.outcome)} + ", reprojection RMS " +
           fixed(fit.rms_px, 2) + " px, " + std::to_string(fit.undetermined.size()) + " parameters undetermined\n" +
           figureRemarks(fit, loadNorms(session.resourceDir()), loadLandmarkProtocol(session.resourceDir()));
+      if (fit.figures.empty()) text = "the picks disagree grossly: no figure is to be used\n" + text;
       if (fit.outcome == Outcome::Converged && !o->output.empty()) {
         saveModel(deformedModel(session.reference(), fit.shape), o->output);
         text += "written " + o->output + "\n";
       }
       Json json{{"format", "sinew.fit"}, {"version", 1}};
       json.update(skeletonFitToJson(fit));
+      json["exchanged_sides"] = exchangesToJson(exchanges);
       session.result(json, text);
       return statusOf(fit.outcome);
     };

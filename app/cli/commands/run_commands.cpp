@@ -4,6 +4,7 @@
 #include "app/cli/support/commands.h"
 #include "clinical/case/case_io.h"
 #include "clinical/pipeline/pipeline.h"
+#include "clinical/pipeline/side_check.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/file.h"
 #include "core/retarget/prepared/reference.h"
@@ -16,10 +17,26 @@ std::optional<Stage> stageOption(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional{stageFromName(name)};
 }
 
+/// Runs as far as the landmarks and gives the picks that were found exchanged the names of the other side.
+RunReport swapSides(Case& c, const std::filesystem::path& folder, Session& session) {
+  RunReport report = runAndStore(c, folder, {{}, Stage::Landmarks}, session);
+  if (report.refused || report.status != ExitStatus::Done) return report;
+  if (c.exchanged_sides.empty()) {
+    session.note("note: no exchange of left and right was found; nothing is exchanged");
+    return report;
+  }
+  applyExchange(c.sightings, c.exchanged_sides);
+  c.exchanged_sides.clear();
+  saveCase(c, folder);
+  session.note("note: left and right exchanged as named");
+  return report;
+}
+
 void addRun(Commands& commands) {
   struct Options {
     std::filesystem::path folder;
     std::string from, to;
+    bool swap = false;
   };
   auto o = std::make_shared<Options>();
   auto& command = addCommand(commands.app, "run", "run the stages of a case that are not done",
@@ -29,10 +46,16 @@ void addRun(Commands& commands) {
   command.add_option("CASE", o->folder, "case folder")->required();
   command.add_option("--from", o->from, "run this stage and those after it even if they are done");
   command.add_option("--to", o->to, "last stage to run");
+  command.add_flag("--swap", o->swap, "exchange left and right where the landmarks stage finds them exchanged");
   command.callback([&commands, o] {
     commands.chosen = [&session = commands.session, o] {
       const RunRequest request{stageOption(o->from), stageOption(o->to)};
-      Case c = loadCase(o->folder);
+      Case c;
+      if (o->swap) {
+        const RunReport report = swapSides(c, o->folder, session);
+        if (report.refused || report.status != ExitStatus::Done)
+          return finishRun(c, o->folder, report, "sinew.run", session);
+      }
       const RunReport report = runAndStore(c, o->folder, request, session);
       return finishRun(c, o->folder, report, "sinew.run", session);
     };
@@ -58,21 +81,13 @@ void addReport(Commands& commands) {
         for (const auto& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
         throw InputError{{o->folder.string(), "report", "every stage done", all}};
       }
-      RunRequest request{Stage::Report, Stage::Report};
-      const RunReport report = runAndStore(c, o->folder, request, session);
+      // What is done is copied, not drawn again: the folder may be one that can only be read.
+      const RunReport report = runAndStore(c, o->folder, {{}, Stage::Report}, session);
       if (report.status == ExitStatus::Done && !o->output.empty())
         writeFileAtomically(o->output, readFile(checkedFile(*c.report, o->folder)));
       return finishRun(c, o->folder, report, "sinew.report", session);
     };
   });
-}
-
-/// Only an empty folder or an earlier demo is written into.
-void refuseForeignFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error) || std::filesystem::is_empty(folder, error)) return;
-  if (std::filesystem::exists(folder / "case.json", error) && loadCase(folder).truth) return;
-  throw InputError{{folder.string(), "", "an empty folder or an earlier demo", "other files, which are kept"}};
 }
 
 void addDemo(Commands& commands) {
@@ -104,7 +119,7 @@ void addDemo(Commands& commands) {
             {"sinew demo", "--rig", "cone-beam or slot-scan", "'" + o->rig + "'" + didYouMean(o->rig, rigs)}};
       if (o->views == 3 && o->rig == rigs[1])
         throw InputError{{"sinew demo", "--views", "2 for a slot scan, which makes both at once", "3"}};
-      refuseForeignFolder(o->folder);
+      expectDemoFolder(o->folder);
       SyntheticOptions options;
       options.resource_dir = session.resourceDir();
       options.seed = o->seed;

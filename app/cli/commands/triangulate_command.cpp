@@ -2,7 +2,9 @@
 #include <memory>
 
 #include "app/cli/support/commands.h"
+#include "app/cli/support/swap_sides.h"
 #include "app/cli/support/text_table.h"
+#include "clinical/case/case_results_json.h"
 #include "imaging/rig/biplanar_rig.h"
 #include "imaging/rig/triangulate.h"
 
@@ -48,6 +50,7 @@ std::string triangulationText(const Triangulation& t) {
 void addTriangulateCommand(Commands& commands) {
   struct Options {
     std::string rig, sightings;
+    bool swap = false;
   };
   auto options = std::make_shared<Options>();
   auto& command =
@@ -57,14 +60,19 @@ void addTriangulateCommand(Commands& commands) {
                  "pixel");
   command.add_option("--rig", options->rig, "rig file")->required();
   command.add_option("--sightings", options->sightings, "CSV file of picks")->required();
+  command.add_flag("--swap", options->swap, "exchange left and right where they are found exchanged");
   command.callback([&commands, options] {
     commands.chosen = [&session = commands.session, options] {
       const auto rig = loadRig(options->rig);
-      const auto triangulation = triangulateAll(rig, loadSightings(options->sightings));
+      auto sightings = loadSightings(options->sightings);
+      const auto exchanges = examineAndSwap(session, rig, sightings, options->swap);
+      const auto triangulation = triangulateAll(rig, sightings);
       session.warn(triangulation.warnings);
       if (triangulation.points.empty())
         throw InputError{{options->sightings, "name", "a point that is seen in two views", "none"}};
-      session.result(triangulationJson(triangulation), triangulationText(triangulation));
+      Json json = triangulationJson(triangulation);
+      json["exchanged_sides"] = exchangesToJson(exchanges);
+      session.result(json, triangulationText(triangulation));
       return ExitStatus::Done;
     };
   });

@@ -4,6 +4,7 @@
 
 #include "app/cli/support/text_table.h"
 #include "clinical/case/case_io.h"
+#include "clinical/pipeline/case_store.h"
 #include "clinical/pipeline/pipeline.h"
 #include "clinical/synthetic/synthetic_case.h"
 #include "core/retarget/prepared/reference.h"
@@ -66,9 +67,11 @@ RunReport runAndStore(Case& c, const std::filesystem::path& folder, const RunReq
   RunReport report;
   RunObserver observer;
   observer.passed_over = [&](const Case& now, const StageStatus& status) { passOver(report, now, status, session); };
-  observer.ended = [&](const Case& now, Stage stage) {
+  CaseStore store{folder, session.resourceDir()};
+  c = store.load();
+  observer.ended = [&](Case& now, Stage stage) {
     spdlog::debug("stage {}", nameOf(stage));
-    saveCase(now, folder);
+    store.store(now, stage);
     tell(report, now, stage, session);
   };
   CaseRun run = runCase(c, request, contextFor(session, folder), observer, session.job());
@@ -85,8 +88,9 @@ namespace {
 Json runJson(const Case& c, const std::filesystem::path& folder, const RunReport& report, const std::string& format,
              Session& session) {
   const auto path = [&](const std::optional<FileReference>& file, Stage stage) {
+    // Never name what is stale or lost.
     const bool fresh =
-        file && stateOf(c, stage, session.resourceDir()) == StageState::Done;  // never name what is stale
+        file && stateOf(c, stage, session.resourceDir()) == StageState::Done && isUndamaged(*file, folder);
     return fresh ? Json((folder / file->path).string()) : Json(nullptr);
   };
   Json json{{"format", format},

@@ -19,7 +19,8 @@ struct RunReport {
   std::optional<InputError> refused;  ///< a stage could not use its input
 };
 
-/// runCase() with one line a stage on stdout; the case is saved after each, so that an interrupted run loses nothing.
+/// runCase() on the case that `folder` holds, with one line a stage on stdout; the result of each is stored, so that
+/// an interrupted run loses nothing. `c` is the case afterwards.
 RunReport runAndStore(Case& c, const std::filesystem::path& folder, const RunRequest& request, Session& session);
 
 /// Prints the result: the JSON contract of `run` and `demo` under `format`, or the files made and, for a synthetic

@@ -22,6 +22,7 @@ CLI::App& addCommand(CLI::App& parent, const std::string& name, const std::strin
 // One function a file of this folder, in the order of the help.
 void addRunCommands(Commands& commands);  // demo, run, report
 void addNewCommand(Commands& commands);
+void addPatientCommand(Commands& commands);
 void addStatusCommand(Commands& commands);
 void addRigCommands(Commands& commands);
 void addTriangulateCommand(Commands& commands);

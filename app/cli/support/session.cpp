@@ -4,6 +4,9 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+
 #include "app/cli/support/resource_folder.h"
 
 namespace sinew {
@@ -15,9 +18,14 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+/// @throws InputError if it does not arrive: a command whose answer is lost has not done what it was asked.
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    const int reason = errno;
+    std::clearerr(stdout);
+    throw InputError{{"standard output", "", "a place that takes the answer", std::strerror(reason)}};
+  }
 }
 
 }  // namespace
@@ -68,9 +76,12 @@ void Session::failure(const InputError::Detail& detail, const std::string& messa
   progress_->clear();
   Json json = errorJson(detail, oneLine(message));
   if (more.is_object()) json.update(more);
-  if (options.json)
-    print(jsonText(json));
-  else
+  try {
+    if (options.json) print(jsonText(json));
+  } catch (const InputError& lost) {
+    std::fprintf(stderr, "sinew: %s\n", lost.what());
+  }
+  if (!options.json)
     std::fprintf(stderr, "%s%s\n", message.starts_with("sinew") ? "" : "sinew: ", oneLine(message).c_str());
 }
 

@@ -47,6 +47,13 @@ void DesignDocument::dropPreview() {
   emit previewed();
 }
 
+void DesignDocument::reset(RetargetDesign design) {
+  preview_.reset();
+  if (design == history_.current() && !history_.canUndo() && !history_.canRedo()) return;
+  history_ = UndoHistory<RetargetDesign>{std::move(design)};
+  emit changed();
+}
+
 void DesignDocument::undo() {
   preview_.reset();
   if (!history_.canUndo()) return;

@@ -17,6 +17,9 @@ struct RetargetDesign {
   friend bool operator==(const RetargetDesign&, const RetargetDesign&) = default;
 };
 
+/// Name of the body that was taken from the open case; never a person's.
+inline constexpr const char* kPatientBody = "this patient";
+
 /// The design, its undo history and the drag that is going on. The only door to a change is edit() or preview().
 class DesignDocument : public QObject {
   Q_OBJECT
@@ -33,6 +36,9 @@ class DesignDocument : public QObject {
   /// Shows `change` of the last step without making a step (a drag); edit() ends it, and so does dropPreview().
   void preview(const std::function<void(RetargetDesign&)>& change);
   void dropPreview();
+
+  /// Begins again with `design`; nothing of before can be undone to.
+  void reset(RetargetDesign design);
 
   bool canUndo() const { return history_.canUndo(); }
   bool canRedo() const { return history_.canRedo(); }

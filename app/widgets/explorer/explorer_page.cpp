@@ -11,6 +11,7 @@
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/model/explorer/muscle_text.h"
 #include "app/model/stage_text.h"
@@ -28,7 +29,6 @@
 namespace sinew {
 namespace {
 
-constexpr int kReference = 0, kPatient = 1, kFile = 2, kAthlete = 3;
 constexpr int kFrame_ms = 15;  // a slider sends more changes than a screen can show
 
 QTabWidget* makeTabs(const QString& object_name) {
@@ -49,12 +49,17 @@ ExplorerPage::ExplorerPage(Workspace& workspace, RomStudy::Mapper mapper, QWidge
   models_->setObjectName("explorer_model");
   models_->setAccessibleName(tr("Model"));
   models_->setMinimumWidth(230);
+  whose_ = new QLabel;
+  whose_->setObjectName("explorer_whose");
+  whose_->setProperty("badge", "stale");
+  whose_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   auto* close = makeButton("explorer_close", tr("Close"), "close", tr("Leave the model explorer"));
   auto* head = new QHBoxLayout;
   head->setSpacing(10);
   head->addWidget(makeLabel(tr("Model explorer"), "title"));
   head->addSpacing(8);
   head->addWidget(models_);
+  head->addWidget(whose_);
   head->addStretch(1);
   head->addWidget(close);
 
@@ -103,7 +108,12 @@ ExplorerPage::ExplorerPage(Workspace& workspace, RomStudy::Mapper mapper, QWidge
   });
   for (const auto signal : {&Explorer::postureChanged, &Explorer::muscleChanged, &Explorer::coloursChanged})
     connect(&explorer_, signal, this, &ExplorerPage::refreshSoon);
-  connect(&workspace_.document(), &CaseDocument::changed, this, &ExplorerPage::fillModels);
+  connect(&workspace_.document(), &CaseDocument::replaced, this, [this] { chosen_by_hand_ = false; });
+  for (const auto signal : {&CaseDocument::changed, &CaseDocument::replaced})
+    connect(&workspace_.document(), signal, this, [this] {
+      if (isVisible()) followPatient();
+      fillModels();
+    });
   connect(&loading_.runner(), &JobRunner::ended, this, [this](JobRunner::Ending ending, const QString& message) {
     if (ending == JobRunner::Ending::Failed) emit workspace_.problem(message);
     fillModels();
@@ -157,63 +167,100 @@ QWidget* ExplorerPage::makeView() {
 
 void ExplorerPage::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  if (!explorer_.model() && !loading_.isBusy()) chooseModel(kReference);
+  followPatient();
 }
 
 void ExplorerPage::fillModels() {
   const QSignalBlocker block{models_};
-  const auto& skeleton = workspace_.document().current().skeleton;
-  const bool has_patient = workspace_.document().isOpen() && skeleton && skeleton->outcome == Outcome::Converged;
   models_->clear();
-  models_->addItem(tr("Reference model"), kReference);
-  models_->addItem(tr("Reference model, athlete"), kAthlete);
-  if (has_patient) models_->addItem(tr("The patient's model"), kPatient);
-  models_->addItem(tr("Open a model file …"), kFile);
-  const QString& shown = explorer_.title();
-  if (!shown.isEmpty() && models_->findText(shown) < 0) models_->insertItem(0, shown);
-  models_->setCurrentIndex(std::max(0, models_->findText(shown)));
+  const auto add = [this](const QString& title, Body body) {
+    models_->addItem(title, QVariant::fromValue(int(body)));
+  };
+  const QString patient = workspace_.patientModelTitle();
+  if (!patient.isEmpty()) add(patient, Body::Patient);
+  add(tr("Reference model"), Body::Reference);
+  add(tr("Reference model, athlete"), Body::Athlete);
+  if (body_ == Body::File) models_->addItem(explorer_.title());
+  add(tr("Open a model file …"), Body::File);
+  const int shown = body_ == Body::File ? models_->findText(explorer_.title()) : models_->findData(int(body_));
+  models_->setCurrentIndex(std::max(0, shown));
+  whose_->setText(patient.isEmpty() ? tr("Not this patient, whose bones are not fitted yet")
+                                    : tr("Not this patient"));
+  whose_->setVisible(workspace_.document().isOpen() && body_ != Body::Patient && body_ != Body::None);
 }
 
 void ExplorerPage::chooseModel(int index) {
   const QVariant choice = models_->itemData(index);
   if (!choice.isValid()) return;  // what is shown already
-  if (choice == kReference) {
-    loadInBackground(tr("Reference model"), [this] { return workspace_.reference(); });
-  } else if (choice == kAthlete) {
-    loadInBackground(tr("Reference model, athlete"), [this] {
-      return std::make_shared<const Model>(loadReferenceModel(workspace_.resourceDir(), "athlete"));
-    });
-  } else if (choice == kPatient) {
-    try {
-      if (auto model = workspace_.patientModel()) {
-        explorer_.setModel(model, tr("The patient's model"));
-        explorer_.setPosture(workspace_.document().current().skeleton->posture);
-      }
-    } catch (const InputError& error) {
-      emit workspace_.problem(QString::fromUtf8(error.what()));
-    }
-  } else {
+  if (Body(choice.toInt()) == Body::File) {
     fillModels();  // the choice is no model: show the present one again
     const auto file = askForFile(this, tr("Model file"), tr("Sinew models (*.json)"));
     if (!file.empty()) openModelFile(file);
+    return;
+  }
+  chosen_by_hand_ = true;
+  show(Body(choice.toInt()));
+}
+
+void ExplorerPage::show(Body body) {
+  if (body == Body::Patient) {
+    showPatient();
+  } else if (body == Body::Reference) {
+    loadInBackground(body, tr("Reference model"), [this] { return workspace_.reference(); });
+  } else {
+    loadInBackground(body, tr("Reference model, athlete"), [this] {
+      return std::make_shared<const Model>(loadReferenceModel(workspace_.resourceDir(), "athlete"));
+    });
+  }
+}
+
+void ExplorerPage::showPatient() {
+  try {
+    const auto model = workspace_.patientModel();
+    if (!model) return;
+    loading_.cancel();
+    const bool was_patient = body_ == Body::Patient;
+    body_ = Body::Patient;
+    explorer_.setModel(model, workspace_.patientModelTitle());
+    if (!was_patient) explorer_.setPosture(workspace_.document().current().skeleton->posture);
+  } catch (const InputError& error) {
+    emit workspace_.problem(QString::fromUtf8(error.what()));
+  }
+}
+
+void ExplorerPage::followPatient() {
+  const bool has_patient = !workspace_.patientModelTitle().isEmpty();
+  if (has_patient && (body_ == Body::Patient || !chosen_by_hand_)) {
+    try {
+      if (body_ != Body::Patient || workspace_.patientModel() != explorer_.model()) showPatient();
+    } catch (const InputError& error) {
+      emit workspace_.problem(QString::fromUtf8(error.what()));
+    }
+  } else if (body_ == Body::Patient || (body_ == Body::None && !loading_.isBusy())) {
+    body_ = Body::None;  // of another case, or of a state that was undone
+    show(Body::Reference);
   }
 }
 
 void ExplorerPage::openModelFile(const std::filesystem::path& file) {
   // Patients: the name of a file may be a person's, and titles show; the model's own name is used.
-  loadInBackground(tr("Model from a file"),
+  chosen_by_hand_ = true;
+  loadInBackground(Body::File, tr("Model from a file"),
                    [this, file] { return std::make_shared<const Model>(loadModel(file, *workspace_.reference())); });
 }
 
-void ExplorerPage::loadInBackground(const QString& title, std::function<std::shared_ptr<const Model>()> load) {
+void ExplorerPage::loadInBackground(Body body, const QString& title,
+                                    std::function<std::shared_ptr<const Model>()> load) {
   loading_.post(
       tr("Loading the model"),
-      [this, title, load = std::move(load)](const Job&) -> JobRunner::Finish {
+      [this, body, title, load = std::move(load)](const Job&) -> JobRunner::Finish {
         auto model = load();
-        return [this, title, model] {
+        return [this, body, title, model] {
+          const Body before = std::exchange(body_, body);
           try {
             explorer_.setModel(model, title);
           } catch (const InputError& error) {
+            body_ = before;
             emit workspace_.problem(QString::fromUtf8(error.what()));
           }
         };

@@ -39,9 +39,16 @@ class ExplorerPage : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  /// Which body is looked at; the data of the list's entries.
+  enum class Body { None, Patient, Reference, Athlete, File };
+
   void fillModels();
   void chooseModel(int index);
-  void loadInBackground(const QString& title, std::function<std::shared_ptr<const Model>()> load);
+  void show(Body body);
+  void showPatient();
+  /// Shows this patient unless a person chose another body, and never an earlier state or another case's.
+  void followPatient();
+  void loadInBackground(Body body, const QString& title, std::function<std::shared_ptr<const Model>()> load);
   QWidget* makeView();
   void refreshSoon();
   void refresh();
@@ -52,7 +59,10 @@ class ExplorerPage : public QWidget {
 
   Workspace& workspace_;
   Explorer explorer_;
+  Body body_ = Body::None;
+  bool chosen_by_hand_ = false;
   QComboBox *models_, *colouring_;
+  QLabel* whose_;
   ModelView* view_;
   ColourBar* bar_;
   QLabel* validity_;

@@ -35,6 +35,10 @@ QToolButton* makeMenuButton(const QString& object_name, const QString& text, con
 DesignMenus::DesignMenus(Workspace& workspace, DesignDocument& document, BodySolver& solver, QWidget& window)
     : QObject{&window}, workspace_{workspace}, document_{document}, solver_{solver}, window_{&window} {
   auto* presets = new QMenu{window_};
+  patient_ = presets->addAction(tr("This patient"), this, &DesignMenus::patientWanted);
+  patient_->setObjectName("preset_patient");
+  patient_->setToolTip(tr("The bones of the open case, its muscles retargeted; before the examination"));
+  presets->addSeparator();
   for (const auto& name : shapePresetNames()) {
     auto* action = presets->addAction(readableName(name), this, [this, name] { takePreset(name); });
     action->setObjectName("preset_" + QString::fromStdString(name));
@@ -59,6 +63,11 @@ DesignMenus::DesignMenus(Workspace& workspace, DesignDocument& document, BodySol
   });
 }
 
+void DesignMenus::offerPatient(bool there) {
+  patient_->setEnabled(there);
+  patient_->setText(there ? tr("This patient") : tr("This patient: no bones fitted"));
+}
+
 void DesignMenus::report(const std::function<void()>& work) {
   try {
     work();
@@ -78,7 +87,8 @@ void DesignMenus::openBodyFile() {
   const auto file = askForFile(window_, tr("Body"), tr("Bodies (*.json)"));
   if (file.empty()) return;
   report([&] {
-    const BodyDescription body = loadBodyDescription(file);
+    BodyDescription body = loadBodyDescription(file);
+    if (body.name == kPatientBody) body.name = "body from a file";  // whose it was the file does not say
     document_.edit(tr("Open a body"), [&](RetargetDesign& d) { d.body = body; });
   });
 }

@@ -6,6 +6,7 @@
 #include "app/model/retarget/body_solver.h"
 #include "app/model/retarget/retarget_design.h"
 
+class QAction;
 class QToolButton;
 class QWidget;
 
@@ -23,6 +24,12 @@ class DesignMenus : public QObject {
   QToolButton* bodies() const { return bodies_; }
   QToolButton* files() const { return files_; }
 
+  /// Whether there is a body of this patient to take; it is the first of the menu.
+  void offerPatient(bool there);
+
+ signals:
+  void patientWanted();
+
  private:
   void report(const std::function<void()>& work);
   void takePreset(const std::string& name);
@@ -38,6 +45,7 @@ class DesignMenus : public QObject {
   DesignDocument& document_;
   BodySolver& solver_;
   QWidget* window_;
+  QAction* patient_;
   QToolButton *bodies_, *files_;
   LatestJob writing_;  ///< last: its thread ends before what it uses goes
 };

@@ -24,6 +24,7 @@
 #include "app/widgets/retarget/rom_edit_view.h"
 #include "app/widgets/retarget/shape_panel.h"
 #include "app/widgets/retarget/solver_state.h"
+#include "clinical/case/patient_body.h"
 #include "core/retarget/prepared/reference.h"
 
 namespace sinew {
@@ -112,6 +113,18 @@ RetargetPage::RetargetPage(Workspace& workspace, BodySolver::Loader loader, QWid
   connect(characters_, &CharactersView::notice, &workspace_, &Workspace::notice);
   connect(rom_panel_, &RomEditPanel::problem, &workspace_, &Workspace::problem);
   connect(rom_panel_, &RomEditPanel::notice, &workspace_, &Workspace::notice);
+  connect(&workspace_.document(), &CaseDocument::replaced, this, [this] {
+    if (taken_) {  // nothing of one patient is seen under the name of another, not by undo either
+      taken_.reset();
+      document_.reset({});
+    }
+  });
+  for (const auto signal : {&CaseDocument::changed, &CaseDocument::replaced})
+    connect(&workspace_.document(), signal, this, [this] {
+      if (!isVisible()) return;
+      followPatient();
+      body_name_->setText(bodyInWords());
+    });
   auto* find = new QShortcut{QKeySequence::Find, this};
   find->setContext(Qt::WidgetWithChildrenShortcut);
   connect(find, &QShortcut::activated, this, [this] {
@@ -122,7 +135,8 @@ RetargetPage::RetargetPage(Workspace& workspace, BodySolver::Loader loader, QWid
 }
 
 QWidget* RetargetPage::makeHead() {
-  auto* menus = new DesignMenus{workspace_, document_, solver_, *this};
+  menus_ = new DesignMenus{workspace_, document_, solver_, *this};
+  connect(menus_, &DesignMenus::patientWanted, this, &RetargetPage::takePatient);
   characters_button_ = new QToolButton;
   characters_button_->setObjectName("characters_button");
   characters_button_->setText(tr("Characters"));
@@ -140,7 +154,7 @@ QWidget* RetargetPage::makeHead() {
   row->addWidget(makeLabel(tr("Retargeting"), "title"));
   row->addSpacing(4);
   row->addWidget(body_name_, 1);
-  for (QToolButton* button : {menus->bodies(), characters_button_, menus->files()}) row->addWidget(button);
+  for (QToolButton* button : {menus_->bodies(), characters_button_, menus_->files()}) row->addWidget(button);
   row->addWidget(close);
   connect(close, &QPushButton::clicked, this, &RetargetPage::closeWanted);
   return box;
@@ -148,16 +162,65 @@ QWidget* RetargetPage::makeHead() {
 
 void RetargetPage::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
+  followPatient();
+  body_name_->setText(bodyInWords());
   solver_.load(loader_);
+}
+
+std::optional<RetargetDesign> RetargetPage::patientDesign() const {
+  const Case& c = workspace_.document().current();
+  if (workspace_.patientModelTitle().isEmpty()) return std::nullopt;
+  RetargetDesign design;
+  design.body.name = kPatientBody;
+  design.body.shape = c.skeleton->shape;
+  try {
+    design.body.physics = patientPhysics(c.patient, c.exam, c.skeleton->shape, workspace_.reference()->skeleton);
+  } catch (const InputError&) {
+    return std::nullopt;  // a mass that cannot belong to these bones; the stages say so
+  }
+  return design;
+}
+
+void RetargetPage::takePatient() {
+  taken_ = patientDesign();
+  if (taken_) document_.edit(tr("Take this patient"), [&](RetargetDesign& d) { d.body = taken_->body; });
+}
+
+void RetargetPage::followPatient() {
+  const auto patient = patientDesign();
+  menus_->offerPatient(patient.has_value());
+  const bool untouched = !document_.canUndo() && !document_.canRedo();
+  const bool shows_taken = taken_ && document_.current() == *taken_;
+  if (patient && untouched && (shows_taken || document_.current() == RetargetDesign{})) {
+    taken_ = patient;
+    document_.reset(*patient);
+  } else if (patient && shows_taken && !(*patient == *taken_)) {
+    takePatient();  // the bones were fitted anew
+  } else if (!patient && shows_taken && untouched) {
+    taken_.reset();
+    document_.reset({});
+  }
+}
+
+QString RetargetPage::bodyInWords() const {
+  const RetargetDesign& design = document_.current();
+  const QString words = shapeInWords(design.body.shape);
+  const bool in_case = workspace_.document().isOpen();
+  if (design.body.name == kPatientBody && in_case) {
+    const auto patient = patientDesign();
+    return patient && patient->body == design.body ? tr("This patient, before the examination")
+                                                   : tr("This patient, changed: %1").arg(words);
+  }
+  const QString body = design.body.shape == ShapeParameters{}
+                           ? tr("The reference body")
+                           : QString::fromStdString(design.body.name) + ": " + words;
+  return in_case ? tr("Not this patient: %1").arg(body) : body;
 }
 
 void RetargetPage::designChanged() {
   emit undoChanged();
   const RetargetDesign& design = document_.current();
-  const QString words = shapeInWords(design.body.shape);
-  body_name_->setText(design.body.shape == ShapeParameters{}
-                          ? tr("The reference body")
-                          : QString::fromStdString(design.body.name) + ": " + words);
+  body_name_->setText(bodyInWords());
   body_view_->designChanged(false);
   solver_.preview(design);  // the bones at once; what was being solved is not wanted any more
   settle_->start();

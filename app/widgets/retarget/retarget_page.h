@@ -14,6 +14,7 @@ namespace sinew {
 
 class BodyView;
 class CharactersView;
+class DesignMenus;
 class FactorPanel;
 class RomEditPanel;
 class RomEditView;
@@ -42,6 +43,13 @@ class RetargetPage : public QWidget {
  private:
   QWidget* makeHead();
   void designChanged();
+  /// What is designed, in words: whose body, and that it is not the open case's where it is not.
+  QString bodyInWords() const;
+  /// The open case's body as far as retargeting goes from bones alone; nullopt before they are fitted.
+  std::optional<RetargetDesign> patientDesign() const;
+  void takePatient();
+  /// Begins with this patient, and drops every trace of another case's.
+  void followPatient();
   void showBody();
   void showMode();
 
@@ -49,6 +57,8 @@ class RetargetPage : public QWidget {
   BodySolver::Loader loader_;
   DesignDocument document_;
 
+  std::optional<RetargetDesign> taken_;  ///< the patient's body that was taken last, from this case
+  DesignMenus* menus_;
   QLabel* body_name_;
   QToolButton* characters_button_;
   ShapePanel* shape_;

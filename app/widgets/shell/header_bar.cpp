@@ -35,7 +35,15 @@ HeaderBar::HeaderBar(Workspace& workspace, const Actions& actions, QWidget* pare
   name->setStyleSheet("color: " + colour::kPrimaryDark.name());
   row->addWidget(mark);
   row->addWidget(name);
-  row->addSpacing(110);
+  row->addSpacing(70);
+  auto* edit_patient = new QToolButton;
+  edit_patient->setObjectName("patient_button");
+  edit_patient->setDefaultAction(actions.patient);
+  edit_patient->setIconSize({20, 20});
+  edit_patient->setMinimumSize(36, 34);
+  edit_patient->setAccessibleName(actions.patient->text());
+  edit_patient->setToolButtonStyle(Qt::ToolButtonIconOnly);
+  row->addWidget(edit_patient);
 
   patient_ = new ElidedLabel{"heading"};
   patient_->setObjectName("patient_name");

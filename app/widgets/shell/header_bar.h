@@ -13,7 +13,7 @@ class HeaderBar : public QWidget {
   Q_OBJECT
  public:
   struct Actions {
-    QAction *new_case, *open, *save, *undo, *redo;
+    QAction *new_case, *open, *save, *undo, *redo, *patient;
   };
   HeaderBar(Workspace& workspace, const Actions& actions, QWidget* parent = nullptr);
 

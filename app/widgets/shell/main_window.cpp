@@ -16,15 +16,11 @@
 #include "app/widgets/retarget/retarget_page.h"
 #include "app/widgets/shell/banner.h"
 #include "app/widgets/shell/new_case_dialog.h"
+#include "app/widgets/shell/patient_dialog.h"
 #include "app/widgets/shell/stage_rail.h"
 #include "app/widgets/shell/status_strip.h"
 #include "app/widgets/shell/welcome_page.h"
-#include "app/widgets/stages/calibration_page.h"
-#include "app/widgets/stages/exam_page.h"
-#include "app/widgets/stages/images_page.h"
-#include "app/widgets/stages/landmarks_page.h"
-#include "app/widgets/stages/musculature_page.h"
-#include "app/widgets/stages/skeleton_page.h"
+#include "app/widgets/stages/stage_pages.h"
 #include "core/retarget/prepared/reference.h"
 
 namespace sinew {
@@ -43,13 +39,7 @@ MainWindow::MainWindow(Workspace& workspace, ReportStagePage::Renderer render_re
   auto* welcome = new WelcomePage{workspace_};
   welcome_ = welcome;
   pages_->addWidget(welcome);
-  stage_pages_ = {{Stage::Images, new ImagesPage{workspace_}},
-                  {Stage::Calibration, new CalibrationPage{workspace_}},
-                  {Stage::Landmarks, new LandmarksPage{workspace_}},
-                  {Stage::Skeleton, new SkeletonPage{workspace_}},
-                  {Stage::Musculature, new MusculaturePage{workspace_}},
-                  {Stage::Exam, new ExamPage{workspace_}},
-                  {Stage::Report, new ReportStagePage{workspace_, std::move(render_report)}}};
+  stage_pages_ = makeStagePages(workspace_, std::move(render_report));
   for (const auto& [stage, page] : stage_pages_) pages_->addWidget(page);
 
   explorer_ = new ExplorerPage{workspace_};
@@ -111,10 +101,12 @@ HeaderBar::Actions MainWindow::makeActions() {
                              make("action_open", "folder-open", tr("Open"), QKeySequence::Open),
                              make("action_save", "save", tr("Save"), QKeySequence::Save),
                              make("action_undo", "undo", tr("Undo"), QKeySequence::Undo),
-                             make("action_redo", "redo", tr("Redo"), QKeySequence{"Ctrl+Shift+Z"})};
+                             make("action_redo", "redo", tr("Redo"), QKeySequence{"Ctrl+Shift+Z"}),
+                             make("action_patient", "patient", tr("Patient"), QKeySequence{"Ctrl+I"})};
   connect(actions.new_case, &QAction::triggered, this, &MainWindow::newCase);
   connect(actions.open, &QAction::triggered, this, &MainWindow::openCase);
-  connect(actions.save, &QAction::triggered, &workspace_, &Workspace::saveCase);
+  connect(actions.save, &QAction::triggered, this, &MainWindow::saveCase);
+  connect(actions.patient, &QAction::triggered, this, &MainWindow::changePatient);
   // Undo belongs to what is looked at: the case, or the body that is being designed.
   connect(actions.undo, &QAction::triggered, this, [this] {
     if (workspace_.view().retargeting())
@@ -152,6 +144,7 @@ HeaderBar::Actions MainWindow::makeActions() {
 void MainWindow::refreshActions() {
   const CaseDocument& document = workspace_.document();
   actions_.save->setEnabled(document.isModified());
+  actions_.patient->setEnabled(document.isOpen());
   const auto offer = [&](const auto& history) {
     actions_.undo->setEnabled(history.canUndo());
     actions_.redo->setEnabled(history.canRedo());
@@ -184,7 +177,7 @@ bool MainWindow::mayLeaveCase() {
   question.setDefaultButton(QMessageBox::Save);
   switch (question.exec()) {
     case QMessageBox::Save:
-      workspace_.saveCase();
+      saveCase();
       return !workspace_.document().isModified();
     case QMessageBox::Discard:
       return true;
@@ -193,12 +186,31 @@ bool MainWindow::mayLeaveCase() {
   }
 }
 
+void MainWindow::saveCase() {
+  bool overwrite = false;
+  if (workspace_.document().isOpen() && workspace_.document().wasChangedElsewhere()) {
+    QMessageBox question{
+        QMessageBox::NoIcon, tr("Changed elsewhere"),
+        tr("Another program wrote into this case since it was opened. Saving replaces what it wrote."),
+        QMessageBox::Save | QMessageBox::Cancel, this};
+    question.setObjectName("changed_elsewhere_question");
+    question.setDefaultButton(QMessageBox::Cancel);
+    if (question.exec() != QMessageBox::Save) return;
+    overwrite = true;
+  }
+  workspace_.saveCase(overwrite);
+}
+
 void MainWindow::newCase() {
   if (!mayLeaveCase()) return;
   NewCaseDialog dialog{this};
   if (dialog.exec() != QDialog::Accepted) return;
   try {
-    workspace_.document().adopt(makeCase(dialog.wanted(), dialog.folder()), dialog.folder());
+    const MadeCase made = makeCase(dialog.wanted(), dialog.folder(), dateToday());
+    workspace_.document().adopt(made.c, dialog.folder());
+    QStringList doubts;
+    for (const auto& doubt : made.doubts) doubts << QString::fromStdString(doubt.message);
+    if (!doubts.isEmpty()) emit workspace_.notice(doubts.join("; "));
   } catch (const InputError& error) {
     emit workspace_.problem(QString::fromUtf8(error.what()));
   }
@@ -210,14 +222,15 @@ void MainWindow::openCase() {
   if (!folder.empty()) workspace_.openCase(folder);
 }
 
+void MainWindow::changePatient() {
+  if (!workspace_.document().isOpen()) return;
+  PatientDialog{workspace_.document(), this}.exec();
+}
+
 void MainWindow::openDemo() {
   if (!mayLeaveCase()) return;
   const auto folder = askForFolder(this, tr("Empty folder for the demo patient"));
-  if (folder.empty()) return;
-  if (std::filesystem::exists(folder / "case.json"))
-    workspace_.openCase(folder);
-  else
-    workspace_.makeDemo(folder, false);
+  if (!folder.empty()) workspace_.makeDemo(folder, false);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

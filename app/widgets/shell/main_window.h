@@ -24,6 +24,8 @@ class MainWindow : public QWidget {
   void newCase();
   void openCase();
   void openDemo();
+  void changePatient();
+  void saveCase();
 
  protected:
   void closeEvent(QCloseEvent* event) override;

@@ -1,6 +1,5 @@
 #include "app/widgets/shell/new_case_dialog.h"
 
-#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -9,23 +8,21 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "app/model/stage_text.h"
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
+#include "clinical/case/patient_edit.h"
 #include "core/text.h"
 
 namespace sinew {
 namespace {
 
-std::optional<double> optionalNumber(const QLineEdit& edit, const char* field, double low, double high,
-                                     double scale) {
+/// Nothing, or millimetres that a pixel of a radiograph may have.
+std::optional<double> pixelSize_mm(const QLineEdit& edit) {
   const std::string text = edit.text().trimmed().toStdString();
   if (text.empty()) return {};
-  const double value = parseNumber(text, "new case", field);
-  if (!(value >= low && value <= high))
-    throw InputError{
-        {"new case", field, figure(low, 2).toStdString() + " to " + figure(high, 0).toStdString(), text}};
-  return value * scale;
+  const double value_mm = parseNumber(text, "new case", "pixel size [mm]");
+  if (!(value_mm >= 0.01 && value_mm <= 5)) throw InputError{{"new case", "pixel size [mm]", "0.01 to 5", text}};
+  return value_mm;
 }
 
 }  // namespace
@@ -45,24 +42,11 @@ NewCaseDialog::NewCaseDialog(QWidget* parent) : QDialog{parent} {
   frontal_ = addPath(*form, "new_frontal", tr("Frontal radiograph"), false);
   lateral_ = addPath(*form, "new_lateral", tr("Lateral radiograph"), false);
   folder_ = addPath(*form, "new_folder", tr("Folder of the case"), true);
-  const auto field = [&](const QString& object_name, const QString& label, const QString& hint) {
-    auto* edit = new QLineEdit;
-    edit->setObjectName(object_name);
-    edit->setPlaceholderText(hint);
-    form->addRow(label, edit);
-    return edit;
-  };
-  spacing_mm_ = field("new_spacing", tr("Pixel size [mm]"), tr("only for files without one"));
-  name_ = field("new_name", tr("Patient"), tr("from the image"));
-  id_ = field("new_id", tr("Patient id"), tr("from the image"));
-  sex_ = new QComboBox;
-  sex_->setObjectName("new_sex");
-  sex_->addItems({tr("from the image"), "F", "M", "O"});
-  form->addRow(tr("Sex"), sex_);
-  birth_date_ = field("new_birth_date", tr("Birth date"), tr("YYYY-MM-DD, from the image"));
-  height_cm_ = field("new_height", tr("Height [cm]"), {});
-  mass_kg_ = field("new_mass", tr("Mass [kg]"), tr("scales the stop torque of the examination"));
-  diagnosis_ = field("new_diagnosis", tr("Diagnosis"), {});
+  spacing_mm_ = new QLineEdit;
+  spacing_mm_->setObjectName("new_spacing");
+  spacing_mm_->setPlaceholderText(tr("only for files without one"));
+  form->addRow(tr("Pixel size [mm]"), spacing_mm_);
+  patient_ = std::make_unique<PatientForm>(*form, "new_", true);
   column->addLayout(form);
   problem_ = new QLabel;
   problem_->setObjectName("new_problem");
@@ -101,14 +85,10 @@ NewCase NewCaseDialog::wanted() const {
   wanted.images = {frontal_->text().trimmed().toStdString(), lateral_->text().trimmed().toStdString()};
   if (wanted.images[0].empty()) throw InputError{{"new case", "frontal radiograph", "a file", "nothing"}};
   if (wanted.images[1].empty()) throw InputError{{"new case", "lateral radiograph", "a file", "nothing"}};
-  wanted.declared_spacing_mm = optionalNumber(*spacing_mm_, "pixel size [mm]", 0.01, 5, 1);
-  wanted.patient.name = name_->text().trimmed().toStdString();
-  wanted.patient.id = id_->text().trimmed().toStdString();
-  if (sex_->currentIndex() > 0) wanted.patient.sex = sex_->currentText().toStdString();
-  wanted.patient.birth_date = birth_date_->text().trimmed().toStdString();
-  wanted.patient.diagnosis = diagnosis_->text().trimmed().toStdString();
-  wanted.patient.height_m = optionalNumber(*height_cm_, "height [cm]", 30, 250, 0.01);
-  wanted.patient.mass_kg = optionalNumber(*mass_kg_, "mass [kg]", 2, 300, 1);
+  wanted.declared_spacing_mm = pixelSize_mm(*spacing_mm_);
+  wanted.patient = patient_->read();
+  Case tried;
+  setPatient(tried, wanted.patient, dateToday());  // what cannot be is said while the form is still open
   return wanted;
 }
 

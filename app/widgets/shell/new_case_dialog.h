@@ -1,10 +1,11 @@
 #pragma once
 #include <QDialog>
 #include <filesystem>
+#include <memory>
 
+#include "app/widgets/shell/patient_form.h"
 #include "clinical/case/new_case.h"
 
-class QComboBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
@@ -25,8 +26,8 @@ class NewCaseDialog : public QDialog {
   void accept() override;
   QLineEdit* addPath(QFormLayout& form, const QString& object_name, const QString& label, bool is_folder);
 
-  QLineEdit *name_, *id_, *birth_date_, *diagnosis_, *height_cm_, *mass_kg_, *spacing_mm_;
-  QComboBox* sex_;
+  QLineEdit* spacing_mm_;
+  std::unique_ptr<PatientForm> patient_;
   QLineEdit *frontal_, *lateral_, *folder_;
   QLabel* problem_;
 };

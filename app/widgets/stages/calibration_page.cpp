@@ -19,7 +19,7 @@
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/radiograph_pane.h"
 #include "clinical/case/case_io.h"
-#include "core/file.h"
+#include "clinical/case/new_case.h"
 #include "imaging/calibration/calibration_object.h"
 
 namespace sinew {
@@ -251,18 +251,8 @@ void CalibrationPage::importRig(const std::vector<std::filesystem::path>& files,
 
 void CalibrationPage::importPhantom(const std::vector<std::filesystem::path>& images,
                                     const std::filesystem::path& beads) {
-  const auto& folder = workspace().document().folder();
   workspace().document().edit(tr("Choose phantom images"), [&](Case& c) {
-    loadCalibrationObject(beads);  // refuses what is no table of beads
-    const auto import = [&](const std::filesystem::path& file, const std::string& name) {
-      return importFile(file, folder,
-                        "calibration/" + name + "-" + sha256OfFile(file).substr(0, 12) + file.extension().string());
-    };
-    for (const auto& image : images) readRadiograph(image);
-    PhantomImages phantom{{}, import(beads, "beads")};
-    for (const auto& image : images)
-      phantom.images.push_back(import(image, "view" + std::to_string(phantom.images.size() + 1)));
-    usePhantom(c, phantom);
+    usePhantom(c, sinew::importPhantom({images, beads}, workspace().document().folder()));
   });
   refresh();
 }

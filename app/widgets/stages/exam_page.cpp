@@ -18,6 +18,7 @@
 #include "app/widgets/controls/curve_plot.h"
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/stages/exam_text.h"
+#include "clinical/case/patient_edit.h"
 #include "core/passive/structures.h"
 #include "core/rom/tests/clinical_sweep.h"
 #include "core/rom/tests/threshold.h"
@@ -128,7 +129,8 @@ ExamPage::ExamPage(Workspace& workspace)
   });
   connect(date_, &QLineEdit::editingFinished, this, [this] {
     this->workspace().document().edit(tr("Set date of the examination"),
-                                      [&](Case& c) { c.exam.date = date_->text().trimmed().toStdString(); });
+                                      [&](Case& c) { setExamDate(c, date_->text().toStdString(), dateToday()); });
+    refresh();  // a refused date shows the truth again
   });
 
   auto* side = new Card{tr("Passive moment of the simulated test")};

@@ -19,6 +19,8 @@
 #include "app/widgets/controls/theme.h"
 #include "app/widgets/views/radiograph_pane.h"
 #include "clinical/pipeline/patient_fit.h"
+#include "clinical/pipeline/pipeline.h"
+#include "clinical/pipeline/side_check.h"
 #include "clinical/report/figure_texts.h"
 
 namespace sinew {
@@ -95,6 +97,7 @@ void LandmarksPage::buildList(QWidget& side) {
   table_ = makeTable("landmark_table", {tr("Landmark"), {}, {}, tr("px")});
   table_->setAccessibleName(tr("Landmarks"));
 
+  exchange_frame_ = makeExchangeFrame();
   advice_ = makeLabel({}, "small");
   advice_->setObjectName("landmark_advice");
   advice_->setAccessibleName(tr("Landmarks that are still needed"));
@@ -130,6 +133,7 @@ void LandmarksPage::buildList(QWidget& side) {
   tools->addWidget(remove_);
   card->content().addLayout(tools);
 
+  column->addWidget(exchange_frame_);
   column->addWidget(search_);
   column->addLayout(line);
   column->addWidget(table_, 1);
@@ -144,6 +148,33 @@ void LandmarksPage::buildList(QWidget& side) {
   connect(next, &QToolButton::clicked, this, [this] { step(1); });
   connect(missing, &QPushButton::clicked, this, &LandmarksPage::selectNextMissing);
   connect(remove_, &QPushButton::clicked, this, [this] { removeSelected(true); });
+}
+
+QWidget* LandmarksPage::makeExchangeFrame() {
+  auto* card = new Card;
+  card->setObjectName("exchange_frame");
+  exchange_text_ = makeLabel({}, "small");
+  exchange_text_->setObjectName("exchange_text");
+  exchange_text_->setWordWrap(true);
+  exchange_text_->setStyleSheet("color: " + colour::kDanger.name());
+  auto* exchange = makeButton("exchange_sides", tr("Exchange left and right"), "",
+                              tr("Gives these picks the names of the other side; undo takes it back"));
+  connect(exchange, &QPushButton::clicked, this,
+          [this] { workspace().document().edit(tr("Exchange left and right"), exchangeSides); });
+  card->content().addWidget(exchange_text_);
+  card->content().addWidget(exchange);
+  card->hide();
+  return card;
+}
+
+void LandmarksPage::refreshExchange() {
+  const Case& c = shownCase();
+  const bool found = !c.exchanged_sides.empty() && resultIsOfToday(c, Stage::Landmarks, workspace().resourceDir());
+  exchange_frame_->setVisible(found);
+  const auto record = c.stages.find(Stage::Landmarks);
+  if (!found || record == c.stages.end()) return;
+  for (const auto& warning : record->second.warnings)
+    if (warning.code == kSidesExchanged) exchange_text_->setText(QString::fromStdString(warning.message));
 }
 
 void LandmarksPage::connectPane(RadiographPane& pane) {
@@ -256,6 +287,7 @@ void LandmarksPage::refresh() {
   refreshColumns();
   refreshNames();
   refreshFindings();
+  refreshExchange();
 }
 
 void LandmarksPage::refreshColumns() {

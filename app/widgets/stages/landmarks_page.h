@@ -46,11 +46,13 @@ class LandmarksPage : public StagePage {
   };
   void connectPane(RadiographPane& pane);
   void buildList(QWidget& side);
+  QWidget* makeExchangeFrame();
   void refreshNames();
   void refreshFindings();
   void refreshAdvice();  ///< what further landmarks would determine, by a fit of what is placed
   void refreshMarks();
   void refreshCard();
+  void refreshExchange();
   void filterRows();
   void step(int direction);
   void removeSelected(bool all_views);
@@ -72,6 +74,8 @@ class LandmarksPage : public StagePage {
   QTimer* advice_timer_;              ///< the hand must rest before anything is fitted
   std::vector<Sighting> advised_on_;  ///< what the advice on the page was made from
   QPushButton* remove_;
+  QWidget* exchange_frame_;  ///< shown while left and right are found exchanged
+  QLabel* exchange_text_;
   int last_view_ = 0;  ///< the one that was used last: Delete works there
 };
 

@@ -47,12 +47,13 @@ class Wording {
     return sure >= least;
   }
 
-  void take(const Chosen& chosen) {
+  void take(const Chosen& chosen, bool whole) {
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       if (!open_[p] || !chosen(pairs_[p])) continue;
       open_[p] = false;
-      auto at = std::ranges::find(words_.exchanges, pairs_[p].view, &SideExchange::view);
-      if (at == words_.exchanges.end()) at = words_.exchanges.insert(at, {pairs_[p].view, {}});
+      auto at = std::ranges::find_if(
+          words_.exchanges, [&](const SideExchange& e) { return e.view == pairs_[p].view && e.whole == whole; });
+      if (at == words_.exchanges.end()) at = words_.exchanges.insert(at, {pairs_[p].view, {}, whole});
       at->landmarks.push_back(pairs_[p].landmark);
     }
   }
@@ -68,7 +69,7 @@ class Wording {
         if (in_view(p)) bones.insert(p.bone);
       if (bones.size() < 2 || !isWhole(in_view, 3)) continue;
       views.insert(view);
-      take(in_view);
+      take(in_view, true);
     }
     if (!views.empty()) say("all landmarks of " + viewsText(views, view_count_));
   }
@@ -82,23 +83,21 @@ class Wording {
       for (std::size_t p = 0; p < pairs_.size(); ++p) any |= open(p);
       if (!any || !isWhole(same, 2)) continue;
       of_bone[pair.bone].insert(pair.view);
-      take(same);
+      take(same, true);
     }
     for (const auto& [bone, views] : of_bone) say(readable(bone) + " in " + viewsText(views, view_count_));
   }
 
   void takeLandmarks() {
-    const bool wholes = !words_.exchanges.empty();
     std::map<std::string, std::set<int>> of_landmark;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       if (!open_[p] || !swapped_[p] || verdicts_[p] != PairVerdict::Exchanged) continue;
       const NamedPair& pair = pairs_[p];
       of_landmark[pair.landmark].insert(pair.view);
-      take([&](const NamedPair& other) { return other.view == pair.view && other.landmark == pair.landmark; });
+      take([&](const NamedPair& other) { return other.view == pair.view && other.landmark == pair.landmark; }, false);
     }
     for (const auto& [landmark, views] : of_landmark)
       say(readable(landmark) + " in " + viewsText(views, view_count_));
-    words_.single_landmarks = !wholes && !of_landmark.empty();
   }
 
   const std::vector<NamedPair>& pairs_;

@@ -19,7 +19,6 @@ enum class PairVerdict { AsNamed, Exchanged, Either };
 struct ExchangeWords {
   std::vector<SideExchange> exchanges;
   std::string what;
-  bool single_landmarks = false;
 };
 
 /// The largest wholes that are exchanged: all views, a view, a bone, landmarks; in words and as a list. A whole needs

@@ -11,7 +11,7 @@ namespace {
 constexpr int kCauses = 3;  // pick, definition, blur
 /// Prior of each variance: as many observations of the stated one.
 constexpr std::array<double, kCauses> kPriorObservations = {10, 4, 3};
-constexpr double kStatedBlur_m = 0.0005;
+constexpr double kStatedBlur_m = 0.0005, kStartBlur_m = 0.001;
 
 using Variances = std::array<double, kCauses>;
 
@@ -74,10 +74,11 @@ Eigen::MatrixXd LandmarkNoise::at(const PickScale& scale) const {
 PickScale estimatePickScale(std::span<const LinearizedLandmark> landmarks, const Eigen::VectorXd& weights,
                             const Eigen::VectorXd& x, bool definitions) {
   const Variances stated = {1, 1, kStatedBlur_m * kStatedBlur_m};
-  Variances variances = definitions ? stated : Variances{1, 0, 0};
+  // Both causes of definition errors start in the middle of what readers do, not where their priors are.
+  Variances variances = definitions ? Variances{1, 0.5, kStartBlur_m * kStartBlur_m} : Variances{1, 0, 0};
   const int causes = definitions ? kCauses : 1;
-  constexpr int kMostSteps = 20;
-  constexpr double kSettled = 0.01;  // of a variance: half a per cent of an interval's width
+  constexpr int kMostSteps = 40;
+  constexpr double kSettled = 0.003;  // of a variance a step; two causes that look alike settle slowly
   for (int step = 0; step < kMostSteps; ++step) {
     const Moments m = momentsAt(landmarks, weights, x, scaleOf(variances), causes);
     double change = 0;

@@ -16,9 +16,9 @@
 #include "core/skeleton/fit/fit_noise_internal.h"
 #include "core/skeleton/fit/fit_report_internal.h"
 #include "core/skeleton/fit/fit_residuals.h"
+#include "core/skeleton/fit/fit_sightings_internal.h"
 #include "core/skeleton/fit/fit_start_internal.h"
 #include "core/skeleton/fit/outside_bones_internal.h"
-#include "core/skeleton/fit/posed_landmarks_internal.h"
 
 namespace sinew {
 namespace {
@@ -126,22 +126,6 @@ class SkeletonFitter {
     blocks_ = blocksOf(sightings_);
   }
 
-  /// Sightings of one landmark: indices into the list.
-  struct Block {
-    int point = 0;
-    std::vector<std::size_t> items;
-  };
-  static std::vector<Block> blocksOf(const SightingList& sightings) {
-    std::vector<Block> blocks(sightings.landmarks.size());
-    for (std::size_t i = 0; i < sightings.items.size(); ++i) {
-      const auto& s = sightings.items[i];
-      blocks[s.point].point = s.point;
-      if (!s.left_out) blocks[s.point].items.push_back(i);
-    }
-    std::erase_if(blocks, [](const Block& block) { return block.items.empty(); });
-    return blocks;
-  }
-
   struct Unknowns {
     std::vector<int> active;  ///< of z
     bool nuisances = false;
@@ -189,94 +173,9 @@ class SkeletonFitter {
   /// along the linear branch of the stated one.
   double lossWidth_sigma() const { return std::max(options_.robust_loss_sigma, 2 * median(distances_sigma())); }
 
-  /// Landmarks as posed for every exposure.
-  std::vector<std::vector<Eigen::Vector3d>> posedByExposure() const {
-    std::vector<std::vector<Eigen::Vector3d>> points;
-    for (int e = 0; e < nuisances_->exposureCount(); ++e)
-      points.push_back(posePoints(reference_, body_, sightings_.landmarks, nuisances_->bodyAt(e, z_, y_), {}).p_W);
-    return points;
-  }
-
-  /// What every sighting shows at the present solution: its residual and how far that may lie from 0.
-  struct SeenResidual {
-    std::optional<Eigen::Vector2d> residual_px;  ///< none behind the source
-    Eigen::Matrix2d covariance_px2;
-  };
-  std::vector<SeenResidual> seenResiduals(const PickScale& scale) const {
-    const auto points = posedByExposure();
-    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
-    const auto frames = framesOfLandmarks();
-    std::vector<SeenResidual> list;
-    for (const auto& s : sightings_.items) {
-      const Eigen::Vector3d& p_W = points[nuisances_->exposureOf(s.view)][s.point];
-      SeenResidual seen{std::nullopt, Eigen::Matrix2d::Identity() * std::pow(scale.pick * s.sigma_px, 2)};
-      PointImage image;
-      if (views[s.view].image(p_W, image)) {
-        seen.residual_px = s.uv_px - image.uv_px;
-        seen.covariance_px2 +=
-            image.by_point * definitionCovariance_W(s.point, frames, scale) * image.by_point.transpose();
-      }
-      list.push_back(seen);
-    }
-    return list;
-  }
-
-  std::vector<Eigen::Matrix3d> framesOfLandmarks() const {
-    std::vector<double> shape, q;
-    body_.expand<double>({z_.data(), static_cast<std::size_t>(z_.size())}, shape, q);
-    const auto X_WB = posedSegments<double>(reference_, shape, q);
-    std::vector<Eigen::Matrix3d> frames;
-    for (const int index : sightings_.landmarks) frames.push_back(X_WB[reference_.landmarks[index].segment].linear());
-    return frames;
-  }
-
-  /// Published covariance of a landmark's definition, in the world [m^2].
-  Eigen::Matrix3d statedDefinition_W(int point, const std::vector<Eigen::Matrix3d>& R_WB) const {
-    const std::string& name = reference_.landmarks[sightings_.landmarks[point]].name;
-    const auto stated = std::ranges::find(options_.definition_errors, name, &DefinitionError::landmark);
-    if (stated == options_.definition_errors.end()) return Eigen::Matrix3d::Zero();
-    return R_WB[point] * stated->covariance_B_m2 * R_WB[point].transpose();
-  }
-  Eigen::Matrix3d definitionCovariance_W(int point, const std::vector<Eigen::Matrix3d>& R_WB,
-                                         const PickScale& scale) const {
-    return std::pow(scale.definition, 2) * statedDefinition_W(point, R_WB) +
-           std::pow(1e-3 * scale.blur_mm, 2) * Eigen::Matrix3d::Identity();
-  }
-
-  /// Covariance of the sightings of every block at the present solution, by its causes.
-  std::vector<LandmarkNoise> noiseOfBlocks() const {
-    const auto points = posedByExposure();
-    const auto views = disturbedViews(views_, *nuisances_, y_, pivot_W_);
-    const auto frames = framesOfLandmarks();
-    std::vector<LandmarkNoise> list;
-    for (const Block& block : blocks_) {
-      const Eigen::Index rows = 2 * static_cast<Eigen::Index>(block.items.size());
-      LandmarkNoise noise{Eigen::MatrixXd::Zero(rows, rows), {}, {}};
-      Eigen::MatrixXd by_point = Eigen::MatrixXd::Zero(rows, 3);
-      for (Eigen::Index i = 0; i < rows / 2; ++i) {
-        const auto& s = sightings_.items[block.items[i]];
-        noise.pick.diagonal().segment<2>(2 * i).setConstant(s.sigma_px * s.sigma_px);
-        PointImage image;
-        if (views[s.view].image(points[nuisances_->exposureOf(s.view)][s.point], image))
-          by_point.middleRows<2>(2 * i) = image.by_point;
-      }
-      noise.definition = by_point * statedDefinition_W(block.point, frames) * by_point.transpose();
-      noise.blur = by_point * by_point.transpose();
-      list.push_back(std::move(noise));
-    }
-    return list;
-  }
-
-  /// Distance of every sighting from the body, in sigmas; infinite behind the source.
-  std::vector<double> distances_sigma() const { return distances_sigma(scale_); }
-  std::vector<double> distances_sigma(const PickScale& scale) const {
-    std::vector<double> sigmas;
-    for (const SeenResidual& seen : seenResiduals(scale))
-      sigmas.push_back(seen.residual_px
-                           ? std::sqrt(seen.residual_px->dot(seen.covariance_px2.inverse() * *seen.residual_px))
-                           : std::numeric_limits<double>::infinity());
-    return sigmas;
-  }
+  /// The sightings beside the present body.
+  SightingsBesideBody beside() const { return {*model_, sightings_, options_.definition_errors, z_, y_}; }
+  std::vector<double> distances_sigma() const { return beside().distances_sigma(scale_); }
 
   static double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -292,7 +191,8 @@ class SkeletonFitter {
     const std::vector<double> sigmas = distances_sigma();
     const double limit = options_.gross_error_sigma * std::max(1.0, median(sigmas) / kMedianOfInliers);
     std::vector<std::size_t> gross =
-        slipsAmong(reference_, sightings_, sigmas, limit, contradictions(limit / options_.gross_error_sigma));
+        slipsAmong(reference_, sightings_, sigmas, limit,
+                   beside().contradictions(blocks_, scale_, limit / options_.gross_error_sigma));
     const double most = kLargestShare * static_cast<double>(sigmas.size());
     if (static_cast<double>(gross.size()) > most) gross.resize(static_cast<std::size_t>(most));
     for (const std::size_t i : gross) sightings_.items[i].left_out = true;
@@ -300,66 +200,12 @@ class SkeletonFitter {
     return !gross.empty();
   }
 
-  /// All picks of every landmark that are used, with the covariance of their errors.
-  std::vector<LandmarkPicks> picksOfBlocks() const {
-    const auto noise = noiseOfBlocks();
-    std::vector<LandmarkPicks> list;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const Block& block = blocks_[b];
-      LandmarkPicks picks{sightings_.landmarks[block.point], {}, {}, noise[b].at(scale_)};
-      picks.uv_px.resize(2 * static_cast<Eigen::Index>(block.items.size()));
-      for (std::size_t k = 0; k < block.items.size(); ++k) {
-        picks.views.push_back(sightings_.items[block.items[k]].view);
-        picks.uv_px.segment<2>(2 * static_cast<Eigen::Index>(k)) = sightings_.items[block.items[k]].uv_px;
-      }
-      list.push_back(std::move(picks));
-    }
-    return list;
-  }
-
-  /// Images as the present solution has the views: with the movement of body and joints before each exposure.
-  ImageOfPoint imageAtSolution(std::vector<int> landmarks) const {
-    std::vector<std::vector<Eigen::Vector3d>> posed;
-    for (int e = 0; e < nuisances_->exposureCount(); ++e)
-      posed.push_back(posePoints(reference_, body_, landmarks, nuisances_->bodyAt(e, z_, y_), {}).p_W);
-    return [this, landmarks = std::move(landmarks), posed = std::move(posed),
-            views = disturbedViews(views_, *nuisances_, y_, pivot_W_)](int landmark, int view,
-                                                                       const Eigen::Vector3d& p_W, SeenImage& seen) {
-      const auto l = static_cast<std::size_t>(std::ranges::find(landmarks, landmark) - landmarks.begin());
-      const Eigen::Vector3d moved = posed[nuisances_->exposureOf(view)][l] - posed.front()[l];
-      PointImage image;
-      if (!views[view].image(p_W + moved, image)) return false;
-      seen.uv_px = image.uv_px;
-      seen.by_point = image.by_point;
-      seen.by_nuisance = Eigen::Matrix2Xd::Zero(2, y_.size());
-      const Nuisances::Local& local = nuisances_->local(view);
-      for (int k = 0; k < Nuisances::kLocal; ++k)
-        if (local.y[k] >= 0) seen.by_nuisance.col(local.y[k]) = image.by_local.col(k);
-      return true;
-    };
-  }
-
-  /// Landmarks whose own picks do not meet, by more than `scale` times what is stated lets expect.
-  std::vector<bool> contradictions(double scale) const {
-    constexpr double kContradicts_sigma = 5;
-    const auto points = posePoints(reference_, body_, sightings_.landmarks, z_, {}).p_W;
-    const ImageOfPoint image = imageAtSolution(sightings_.landmarks);
-    std::vector<bool> contradicts(sightings_.landmarks.size(), false);
-    const auto picks = picksOfBlocks();
-    for (std::size_t b = 0; b < picks.size(); ++b) {
-      const int point = blocks_[b].point;
-      const auto met = pickedPoint(picks[b], image, points[point]);
-      contradicts[point] = met && met->disagreement > kContradicts_sigma * scale;
-    }
-    return contradicts;
-  }
-
   /// Some steps towards the solution; how they end does not matter yet.
   void approach(const Unknowns& unknowns, double from, double to) {
     solve(unknowns, {lossWidth_sigma(), 10, 1e-3}, from, to);
   }
 
-  std::vector<SeenPoint> seenPoints(const Block& block) const {
+  std::vector<SeenPoint> seenPoints(const SightingBlock& block) const {
     std::vector<SeenPoint> seen;
     for (const std::size_t i : block.items) seen.push_back({sightings_.items[i].view, sightings_.items[i].uv_px});
     return seen;
@@ -403,7 +249,7 @@ class SkeletonFitter {
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &shared;
     ceres::Problem problem{problem_options};
-    const auto noise = noiseOfBlocks();
+    const auto noise = beside().noise(blocks_);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const double loss = lossOfBlock(settings.loss_sigma, static_cast<int>(blocks_[b].items.size()));
       problem.AddResidualBlock(
@@ -435,7 +281,8 @@ class SkeletonFitter {
   PickScale estimateScale(const Unknowns& unknowns) const {
     SharedBody shared{*model_, unknowns.active, z_, y_, unknowns.nuisances};
     shared.PrepareForEvaluation(true, true);
-    auto noise = noiseOfBlocks();
+    auto noise = beside().noise(blocks_);
+    const double loss_sigma = lossWidth_sigma();
     std::vector<LinearizedLandmark> landmarks;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const Eigen::Index rows = 2 * static_cast<Eigen::Index>(blocks_[b].items.size());
@@ -448,7 +295,7 @@ class SkeletonFitter {
       if (!cost.Evaluate(x, landmark.residual_px.data(), jacobians)) continue;
       const double distance =
           std::sqrt(landmark.residual_px.dot(landmark.noise.at(scale_).llt().solve(landmark.residual_px)));
-      const double weight = std::min(1.0, lossOfBlock(lossWidth_sigma(), static_cast<int>(rows / 2)) / distance);
+      const double weight = std::min(1.0, lossOfBlock(loss_sigma, static_cast<int>(rows / 2)) / distance);
       landmark.residual_px *= std::sqrt(weight);
       landmark.jacobian_px = std::sqrt(weight) * jacobian;
       landmarks.push_back(std::move(landmark));
@@ -481,12 +328,8 @@ class SkeletonFitter {
     fit.shape = shapeFromVector(shape);
     fit.posture = Eigen::Map<Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
     fit.pick_scale = scale_;
-    const PickScale stated;
-    const auto seen = seenResiduals(stated);
-    const auto distances = distances_sigma(stated);
-    for (std::size_t i = 0; i < seen.size(); ++i)
-      fit.residuals.push_back({sightings_.items[i].landmark, sightings_.items[i].view,
-                               seen[i].residual_px.value_or(Eigen::Vector2d::Zero()), distances[i]});
+    const SightingsBesideBody seen = beside();
+    fit.residuals = seen.residuals(PickScale{});
     describeResiduals(sightings_, fit);
     fit.movements = describeMovements(reference_, views_, *nuisances_, y_, nuisance_covariance_, bend_);
     warnOfMovement(fit.movements, fit.warnings);
@@ -496,7 +339,7 @@ class SkeletonFitter {
     std::erase_if(landmarks, [&](int l) {
       return reference_.landmarks[l].segment >= reference_.movingSegmentCount();  // glides with a joint
     });
-    judgeFigures({reference_, body_, z_, covariance_, picksOfBlocks(), imageAtSolution(landmarks),
+    judgeFigures({reference_, body_, z_, covariance_, seen.picks(blocks_, scale_), seen.image(landmarks),
                   nuisance_covariance_, options_.offered_landmarks, static_cast<int>(views_.size())},
                  fit);
     warnOfBounds(body_, z_, fit.warnings);
@@ -510,7 +353,7 @@ class SkeletonFitter {
   BodyParameters body_;
   std::optional<Nuisances> nuisances_;
   std::optional<FitModel> model_;
-  std::vector<Block> blocks_;
+  std::vector<SightingBlock> blocks_;
   Eigen::Vector3d pivot_W_ = Eigen::Vector3d::Zero();
   Eigen::VectorXd z_, y_;
   PickScale scale_;

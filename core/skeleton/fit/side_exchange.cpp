@@ -33,14 +33,12 @@ struct Trial {
 
 class ExchangeSearch {
  public:
-  ExchangeSearch(const Skeleton& reference, std::span<const FitView> views,
-                 std::span<const LandmarkObservation> picks, std::span<const ShapePrior> priors,
-                 const FitOptions& fit_options, const ExchangeOptions& options, const Job& job)
+  ExchangeSearch(const Skeleton& reference, std::span<const View> views, std::span<const LandmarkObservation> picks,
+                 std::span<const ShapePrior> priors, const ExchangeOptions& options, const Job& job)
       : reference_{reference},
-        views_{views},
+        views_{exactViews(views)},
         picks_{picks},
         priors_{priors},
-        fit_options_{fit_options},
         options_{options},
         job_{job} {
     collectPairs();
@@ -48,9 +46,9 @@ class ExchangeSearch {
 
   ExchangeFinding run() {
     ExchangeFinding finding;
+    job_.report(0.5, "looking for exchanged sides");
     const std::vector<bool> none(pairs_.size());
     const Trial as_named = fitted(none);
-    finding.as_named = as_named.fit;
     if (pairs_.empty() || job_.cancelled()) return finding;
     std::vector<Trial> ends;
     for (const auto& start : starts()) {
@@ -63,6 +61,10 @@ class ExchangeSearch {
     Trial best = ofLeastCost(scaleOf(*std::ranges::min_element(ends, {}, &ExchangeSearch::scaleOf)));
     for (int round = 0; round < kRounds && !isClean(best) && !job_.cancelled(); ++round) {
       Trial other = improved(bestMove(best));
+      if (round == 0) {  // what the starts exchanged on their way may be wrong itself
+        Trial fresh = improved(bestMove(as_named));
+        if (costOf(fresh, scaleOf(best)) < costOf(other, scaleOf(best))) other = std::move(fresh);
+      }
       if (costOf(other, scaleOf(best)) > costOf(best, scaleOf(best)) - kWorthAMove) break;
       best = std::move(other);
     }
@@ -109,7 +111,7 @@ class ExchangeSearch {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (const int i : {pairs_[p].right, pairs_[p].left})
         if (swapped[p] && i >= 0) named[std::size_t(i)].landmark = withOtherSide(named[std::size_t(i)].landmark);
-    Trial trial{swapped, fitSkeleton(reference_, views_, named, priors_, fit_options_, job_), {}, 0};
+    Trial trial{swapped, fitSkeleton(reference_, views_, named, priors_, {}, {{}, job_.stop}), {}, 0};
     std::map<std::pair<int, std::string>, Residual> residuals;
     for (const auto& r : trial.fit.residuals) residuals[{r.view, r.landmark}] = {r.residual_px, r.sigmas};
     for (const auto& pick : named) {
@@ -239,18 +241,17 @@ class ExchangeSearch {
                                            : PairVerdict::AsNamed);
     }
     const ExchangeWords words = wordsFor(pairs_, verdicts, best.swapped, int(views_.size()));
-    const double least = words.single_landmarks ? options_.least_pair_evidence : options_.least_evidence;
+    const bool whole = std::ranges::any_of(words.exchanges, &SideExchange::whole);
+    const double least = whole ? options_.least_evidence : options_.least_pair_evidence;
     if (finding.evidence < least) return;
     finding.exchanges = words.exchanges;
     finding.what = words.what;
-    finding.single_landmarks = words.single_landmarks;
   }
 
   const Skeleton& reference_;
-  std::span<const FitView> views_;
+  std::vector<FitView> views_;
   std::span<const LandmarkObservation> picks_;
   std::span<const ShapePrior> priors_;
-  const FitOptions& fit_options_;
   const ExchangeOptions& options_;
   const Job& job_;
   std::vector<NamedPair> pairs_;
@@ -272,11 +273,11 @@ bool isExchanged(std::span<const SideExchange> exchanges, std::string_view name,
          });
 }
 
-ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const FitView> views,
+ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const View> views,
                                    std::span<const LandmarkObservation> observations,
-                                   std::span<const ShapePrior> priors, const FitOptions& fit_options,
-                                   const ExchangeOptions& options, const Job& job) {
-  return ExchangeSearch{reference, views, observations, priors, fit_options, options, job}.run();
+                                   std::span<const ShapePrior> priors, const ExchangeOptions& options,
+                                   const Job& job) {
+  return ExchangeSearch{reference, views, observations, priors, options, job}.run();
 }
 
 }  // namespace sinew

@@ -16,6 +16,7 @@ namespace sinew {
 struct SideExchange {
   int view = 0;                        ///< index into the views
   std::vector<std::string> landmarks;  ///< without side: "femoral_head_center"
+  bool whole = false;                  ///< all of a bone or of a view, not landmarks here and there
   friend bool operator==(const SideExchange&, const SideExchange&) = default;
 };
 
@@ -36,19 +37,19 @@ struct ExchangeOptions {
 struct ExchangeFinding {
   std::vector<SideExchange> exchanges;  ///< empty: none
   std::string what;                     ///< "all landmarks of view 2", "femur in view 1", ...
-  bool single_landmarks = false;        ///< only landmarks here and there, no whole bone or view
   double evidence = 0;                  ///< fall of the cost that the exchange brings
-  SkeletonFit as_named;                 ///< the fit of the picks as they are
 };
 
-/// Looks for exchanged sides among picks. Costs some fits if the picks disagree, two more than the one otherwise.
-/// A pair that lies together in a view (right and left closer than about five picking errors) cannot be told apart
-/// there, nor need it be; films that are stored mirrored and named as they hang make the mirror image of a patient,
-/// which no geometry can tell.
+/// Looks for exchanged sides among picks, with a plain fit: views that are exact and of one instant. What that does
+/// not explain (movement, definition of landmarks, a nominal geometry) shows in all residuals and widens the scale in
+/// which namings are compared. Costs a fit for each view and two more; some tens if picks disagree. A pair that lies
+/// together in a view (right and left closer than about five picking errors) cannot be told apart there, nor need it
+/// be; films that are stored mirrored and named as they hang make the mirror image of a patient, which no geometry
+/// can tell.
 /// @throws InputError as fitSkeleton().
-ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const FitView> views,
+ExchangeFinding findExchangedSides(const Skeleton& reference, std::span<const View> views,
                                    std::span<const LandmarkObservation> observations,
-                                   std::span<const ShapePrior> priors, const FitOptions& fit_options = {},
-                                   const ExchangeOptions& options = {}, const Job& job = {});
+                                   std::span<const ShapePrior> priors, const ExchangeOptions& options = {},
+                                   const Job& job = {});
 
 }  // namespace sinew

@@ -210,8 +210,77 @@ TEST(CliCase, NewLeavesNothingBehindWhenItRefuses) {
   const ProgramResult tall = sinewProgram(
       {"new", made, "--image", image, "--image", demo().path() + "/images/view2.dcm", "--height-m", "175"});
   EXPECT_EQ(tall.status, 2);
-  EXPECT_THAT(tall.err, HasSubstr("sinew new: patient.height_m"));
+  EXPECT_THAT(tall.err, HasSubstr("patient: height [m]: expected 0.3 to 2.7, found 175"));
   EXPECT_FALSE(std::filesystem::exists(made));
+}
+
+TEST(CliCase, ThePatientIsStatedAtFirstAndChangedAtAnyTime) {
+  const test::TemporaryFolder folder;
+  const std::string made = (folder / "made").string(), from = demo().path();
+  const auto new_case = [&](const std::string& birth_date) {
+    return sinewProgram({"new", made, "--image", from + "/images/view1.dcm", "--image", from + "/images/view2.dcm",
+                         "--sex", "f", "--birth-date", birth_date, "--height", "1.28", "--mass", "23.5"});
+  };
+  for (const char* wrong : {"2014-02-31", "00000000", "2199-01-01", "soon"}) {
+    const ProgramResult refused = new_case(wrong);
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_THAT(refused.err, HasSubstr("birth date")) << wrong;
+    EXPECT_FALSE(std::filesystem::exists(made));
+  }
+  ASSERT_EQ(new_case("20140309").status, 0);
+  const Json stored = parseJson(readFile(made + "/case.json"), "case")["patient"];
+  EXPECT_EQ(stored["sex"], "F");
+  EXPECT_EQ(stored["birth_date"], "2014-03-09");
+
+  const std::string copy = copyOfDemo(folder);
+  const std::string before = readFile(copy + "/case.json");
+  const Json shown = documentOf(sinewProgram({"patient", copy, "--json"}));
+  EXPECT_FALSE(shown["patient"].contains("name"));
+  EXPECT_EQ(readFile(copy + "/case.json"), before);  // to look is not to change
+  const Json changed = documentOf(sinewProgram({"patient", copy, "--mass-kg", "54", "--json"}));
+  EXPECT_EQ(changed["patient"]["mass_kg"], 54.0);
+  EXPECT_THAT(changed["stale"].get<std::vector<std::string>>(), ::testing::Contains("exam"));
+  EXPECT_THAT(changed["stale"].get<std::vector<std::string>>(), Not(::testing::Contains("skeleton")));
+  const Json taken_back = documentOf(sinewProgram({"patient", copy, "--mass", "unknown", "--json"}));
+  EXPECT_TRUE(taken_back["patient"]["mass_kg"].is_null());
+  EXPECT_EQ(sinewProgram({"patient", copy, "--mass", "5400"}).status, 2);
+  EXPECT_EQ(sinewProgram({"patient", copy, "--birth-date", "2099-01-01"}).status, 2);
+}
+
+TEST(CliCase, StatusNamesTheReferenceDataAndNoticesAnother) {
+  const test::TemporaryFolder folder;
+  const auto resources = folder / "resources";
+  std::filesystem::copy(test::resourceDir(), resources, std::filesystem::copy_options::recursive);
+  const auto states = [&] {
+    return stageValues(documentOf(sinewProgram({"status", demo().path(), "--resources", resources, "--json"})),
+                       "state");
+  };
+  EXPECT_THAT(states(), Each(std::string{"done"}));
+  writeFileAtomically(resources / "clinical/norms.json", readFile(resources / "clinical/norms.json") + "\n");
+  EXPECT_EQ(states(), (std::vector<std::string>{"done", "done", "done", "done", "done", "done", "stale"}));
+  const Json status = documentOf(sinewProgram({"status", demo().path(), "--json"}));
+  bool named = false;
+  for (const auto& use : status["resources"]) named |= use["path"] == "clinical/norms.json";
+  EXPECT_TRUE(named);
+}
+
+TEST(CliCase, AReportOfACaseThatCanOnlyBeReadIsCopied) {
+  const test::TemporaryFolder folder;
+  const std::string copy = copyOfDemo(folder);
+  const std::string before = readFile(copy + "/case.json");
+  const auto file = folder / "report.pdf";
+  const ProgramResult result = sinewProgram({"report", copy, "-o", file});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(readFile(file), readFile(copy + "/results/report.pdf"));
+  EXPECT_EQ(readFile(copy + "/case.json"), before);  // nothing was written into the case
+}
+
+TEST(CliCase, ALostAnswerIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string program = SINEW_EXECUTABLE;
+  const int status =
+      std::system(("'" + program + "' status '" + demo().path() + "' --json > /dev/full 2>/dev/null").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
 }
 
 TEST(CliCase, WrongStageNamesAreAnsweredWithTheNearest) {

@@ -78,6 +78,20 @@ TEST_F(CaseDocumentTest, SavingStoresWhatIsShown) {
   EXPECT_EQ(loadCase(folder_.path()).exam.examiner, "A. B.");
 }
 
+TEST_F(CaseDocumentTest, WhatAnotherProgramStoredIsNotOverwrittenUnasked) {
+  document_.edit("Set examiner", nameExaminer);
+  Case other;
+  other.exam.examiner = "a command";
+  saveCase(other, folder_.path());
+  EXPECT_TRUE(document_.wasChangedElsewhere());
+  EXPECT_THROW(document_.save(), InputError);
+  EXPECT_EQ(loadCase(folder_.path()).exam.examiner, "a command");
+  EXPECT_TRUE(document_.isModified());
+  document_.save(true);
+  EXPECT_EQ(loadCase(folder_.path()).exam.examiner, "A. B.");
+  EXPECT_FALSE(document_.wasChangedElsewhere());
+}
+
 TEST_F(CaseDocumentTest, AFolderWithoutACaseLeavesTheOpenOne) {
   document_.edit("Set examiner", nameExaminer);
   const test::TemporaryFolder empty;

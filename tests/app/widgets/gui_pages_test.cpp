@@ -23,7 +23,10 @@
 #include "app/model/workspace.h"
 #include "app/widgets/controls/controls.h"
 #include "app/widgets/controls/theme.h"
+#include "app/widgets/explorer/explorer_page.h"
+#include "app/widgets/retarget/retarget_page.h"
 #include "app/widgets/shell/main_window.h"
+#include "app/widgets/shell/patient_dialog.h"
 #include "app/widgets/stages/calibration_page.h"
 #include "app/widgets/stages/landmarks_page.h"
 #include "app/widgets/views/radiograph_view.h"
@@ -175,7 +178,7 @@ TEST_F(PagesTest, EveryFieldOfTheExaminationIsStoredAndReadBack) {
   openFinished();
   workspace_.view().setStage(Stage::Exam);
   type("examiner", "B. Reader");
-  type("exam_date", "2026-05-07");
+  type("exam_date", "2024-05-07");  // a day that is past by every clock
   for (const ClinicalTest* row : workspace_.protocol().form())
     for (const char side : {'r', 'l'}) {
       const ClinicalTest& test = *row;
@@ -189,7 +192,7 @@ TEST_F(PagesTest, EveryFieldOfTheExaminationIsStoredAndReadBack) {
   workspace_.saveCase();
   const Case stored = loadCase(folder_ / "case");
   EXPECT_EQ(stored.exam.examiner, "B. Reader");
-  EXPECT_EQ(stored.exam.date, "2026-05-07");
+  EXPECT_EQ(stored.exam.date, "2024-05-07");
   for (const ClinicalTest* row : workspace_.protocol().form())
     for (const char side : {'r', 'l'}) {
       const ClinicalTest& test = *row;
@@ -250,6 +253,91 @@ TEST_F(PagesTest, ALongDiagnosisEndsInAnEllipsis) {
   QApplication::processEvents();
   EXPECT_TRUE(details.isElided());
   EXPECT_THAT(details.text().toStdString(), HasSubstr(current().patient.diagnosis));  // all of it in the tool tip
+}
+
+TEST_F(PagesTest, ThePatientCanBeChangedAtAnyTimeAndUndone) {
+  openFinished();
+  const Patient before = current().patient;
+  PatientDialog dialog{workspace_.document(), &window_};
+  const auto enter = [&](const char* field, const char* text) {
+    dialog.findChild<QLineEdit*>(QString{"patient_"} + field)->setText(text);
+  };
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("patient_height")->text(), "171");
+  EXPECT_EQ(dialog.findChild<QComboBox*>("patient_sex")->currentData().toString(), "M");
+  for (const char* wrong : {"2008-02-30", "2099-01-01", "2026-05-30", "soon"}) {  // the exam was on 2026-05-06
+    enter("birth_date", wrong);
+    dialog.accept();
+    EXPECT_THAT(dialog.findChild<QLabel*>("patient_problem")->text().toStdString(), HasSubstr("birth date")) << wrong;
+    EXPECT_EQ(current().patient, before) << wrong;
+  }
+  enter("birth_date", "20120229");
+  enter("mass", "54");
+  dialog.accept();
+  EXPECT_EQ(current().patient.birth_date, "2012-02-29");
+  EXPECT_EQ(current().patient.mass_kg, 54);
+  EXPECT_EQ(workspace_.document().stateOf(Stage::Skeleton), StageState::Done);
+  EXPECT_EQ(workspace_.document().stateOf(Stage::Exam), StageState::Stale);
+  workspace_.document().undo();
+  EXPECT_EQ(current().patient, before);
+  EXPECT_EQ(workspace_.document().stateOf(Stage::Exam), StageState::Done);
+}
+
+TEST_F(PagesTest, TheExplorerShowsThisPatientFirstAndNamesAnyOtherBody) {
+  openFinished();
+  workspace_.view().setExplorer(true);
+  auto& page = find<ExplorerPage>("explorer_page");
+  auto& models = find<QComboBox>("explorer_model");
+  ASSERT_TRUE(page.explorer().model());
+  EXPECT_EQ(page.explorer().model(), workspace_.patientModel());
+  EXPECT_EQ(models.currentIndex(), 0);
+  EXPECT_EQ(models.currentText(), "This patient");
+  EXPECT_FALSE(find<QLabel>("explorer_whose").isVisible());
+  workspace_.document().edit("Mass", [](Case& c) { c.patient.mass_kg = 54; });  // the examination is out of date
+  EXPECT_EQ(models.currentText().left(12), "This patient");
+  EXPECT_NE(models.currentText(), "This patient");
+  EXPECT_EQ(page.explorer().model(), workspace_.patientModel());
+
+  emit models.activated(models.findText("Reference model"));
+  ASSERT_TRUE(waitUntil([&] { return page.explorer().model()->name == "reference"; }, 60'000));
+  EXPECT_EQ(models.currentText(), "Reference model");
+  EXPECT_TRUE(find<QLabel>("explorer_whose").isVisible());
+  EXPECT_EQ(find<QLabel>("explorer_whose").text(), "Not this patient");
+  workspace_.document().undo();  // a body chosen by hand stays
+  EXPECT_EQ(page.explorer().model()->name, "reference");
+}
+
+TEST_F(PagesTest, NoBodyIsShownUnderTheNameOfAnotherPatient) {
+  openFinished();
+  workspace_.view().setExplorer(true);
+  workspace_.view().setRetargeting(true);
+  auto& page = find<ExplorerPage>("explorer_page");
+  auto& retarget = find<RetargetPage>("retarget_page");
+  EXPECT_EQ(retarget.document().current().body.shape, current().skeleton->shape);
+  EXPECT_THAT(find<QLabel>("retarget_body").text().toStdString(), HasSubstr("This patient"));
+  retarget.document().edit("Longer", [](RetargetDesign& d) { d.body.shape.trunk_elongation *= 1.1; });
+  EXPECT_THAT(find<QLabel>("retarget_body").text().toStdString(), HasSubstr("This patient, changed"));
+
+  const test::TemporaryFolder other;
+  saveCase(Case{}, other.path());
+  workspace_.openCase(other.path());
+  EXPECT_EQ(retarget.document().current(), RetargetDesign{});
+  EXPECT_FALSE(retarget.document().canUndo());
+  workspace_.view().setExplorer(true);
+  ASSERT_TRUE(waitUntil([&] { return page.explorer().model()->name == "reference"; }, 60'000));
+  EXPECT_THAT(find<QLabel>("explorer_whose").text().toStdString(), HasSubstr("bones are not fitted"));
+  workspace_.view().setRetargeting(true);
+  EXPECT_THAT(find<QLabel>("retarget_body").text().toStdString(), HasSubstr("Not this patient"));
+}
+
+TEST_F(PagesTest, TheDemoRefusesAFolderThatHoldsOtherThings) {
+  writeFileAtomically(folder_ / "work/thesis.txt", "years of work");
+  workspace_.makeDemo(folder_ / "work", false);
+  EXPECT_THAT(problem_.toStdString(), HasSubstr("an empty folder or an earlier demo"));
+  EXPECT_FALSE(workspace_.document().isOpen());
+  std::filesystem::copy(finished_folder_->path(), folder_ / "case", std::filesystem::copy_options::recursive);
+  workspace_.makeDemo(folder_ / "case", false);  // a case, but no demo
+  EXPECT_FALSE(workspace_.document().isOpen());
+  EXPECT_FALSE(workspace_.jobs().isBusy());
 }
 
 TEST_F(PagesTest, PresetsOfTheGreyWindow) {

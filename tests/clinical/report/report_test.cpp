@@ -37,6 +37,7 @@ TEST(ReportText, DatesFromDicomAreWrittenWithDashes) {
   EXPECT_EQ(dateText("20260504"), "2026-05-04");
   EXPECT_EQ(dateText("2026-05-04"), "2026-05-04");
   EXPECT_EQ(dateText(""), "");
+  EXPECT_EQ(dateText("20260231"), "no day of the calendar");
 }
 
 TEST(ReportText, NamesFromDicomReadAsPeopleWriteThem) {
@@ -74,8 +75,10 @@ TEST_F(BoneTable, FlagsOnlyWhatIsBeyondNormAndMeasurementError) {
   ASSERT_EQ(t.rows.size(), 1u);
   EXPECT_THAT(t.rows[0], Contains("8.0 (7.0 to 9.0) \u25B2"));
   EXPECT_THAT(t.rows[0], Contains("6.5 (5.5 to 7.5)"));
-  EXPECT_NEAR(t.z_scores[0][0], 8.0 / 3, 1e-9);
-  EXPECT_NEAR(t.z_scores[0][1], 6.5 / 3, 1e-9);
+  EXPECT_NEAR(t.z_scores[0][0], 6.5 / 3, 1e-9);  // right before left
+  EXPECT_NEAR(t.z_scores[0][1], 8.0 / 3, 1e-9);
+  EXPECT_THAT(t.columns[2], HasSubstr("Right"));
+  EXPECT_EQ(t.rows[0][2], "6.5 (5.5 to 7.5)");
 }
 
 TEST_F(BoneTable, MarksADifferenceOnlyBeyondItsError) {
@@ -88,7 +91,7 @@ TEST_F(BoneTable, NeverShowsThePriorAsAMeasurement) {
   const auto t = table({figure("tibial_torsion", "r", 31, 4), figure("tibial_torsion", "l", 30, 9, false)});
   EXPECT_THAT(t.rows[0], Contains("undetermined"));
   for (const auto& cell : t.rows[0]) EXPECT_THAT(cell, Not(HasSubstr("30.0")));
-  EXPECT_TRUE(std::isnan(t.z_scores[0][0]));
+  EXPECT_TRUE(std::isnan(t.z_scores[0][1]));
 }
 
 TEST_F(BoneTable, AMissingSideIsSaid) {
@@ -166,11 +169,30 @@ TEST_F(CaseReport, ExamTableShowsBothSimulationsAndWhyATestIsMissing) {
   EXPECT_TRUE(right && left);
 }
 
+TEST_F(CaseReport, AMeasurementBeyondItsNormIsMarkedLikeABone) {
+  const ClinicalTests protocol = loadClinicalTests(test::resourceDir());
+  const ClinicalTest& test = protocol.test("popliteal_unilateral");
+  constexpr double kMean_deg = 33, kSd_deg = 11;
+  const auto shown = [&](double beyond_sd, double error_sd) {
+    ExamFit fit;
+    fit.tests = {{.test = test.id,
+                  .side = 'r',
+                  .measured_deg = kMean_deg + beyond_sd * kSd_deg + error_sd * test.form->measurement_sd_deg,
+                  .norm_mean_deg = kMean_deg,
+                  .norm_sd_deg = kSd_deg}};
+    return examTable(fit, {}, protocol).rows.at(0)[2];
+  };
+  EXPECT_THAT(shown(2, 2.1), HasSubstr("\u25B2"));
+  EXPECT_THAT(shown(2, 1.8), Not(HasSubstr("\u25B2")));  // may well lie within
+  EXPECT_THAT(shown(-2, -2.1), HasSubstr("\u25BC"));
+  EXPECT_THAT(shown(0, 0), Not(testing::AnyOf(HasSubstr("\u25B2"), HasSubstr("\u25BC"))));
+}
+
 TEST_F(CaseReport, MuscleTableFindsTheShortHamstrings) {
   for (const auto& row : report_->muscles.rows)
     if (row[0] == "Hamstrings") {
-      EXPECT_EQ(row[1], "not measured");
-      EXPECT_NEAR(std::stod(row[2]), 0.92, 0.03);  // the fitted skeleton is not quite the true one
+      EXPECT_NEAR(std::stod(row[1]), 0.92, 0.03);  // right; the fitted skeleton is not quite the true one
+      EXPECT_EQ(row[2], "not measured");
       EXPECT_THAT(row[5], HasSubstr("popliteal"));
     }
 }

@@ -45,6 +45,26 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, EitherRig, testing::Values(SyntheticRig::Con
                            return kind.param == SyntheticRig::ConeBeam ? "ConeBeam" : "SlotScan";
                          });
 
+TEST(SyntheticRig, AThirdObliqueFilmIsDescribedByItsTags) {
+  std::vector<Radiograph> films;
+  for (const auto& geometry : filmGeometry(SyntheticRig::ConeBeam, 1, 3)) {
+    Radiograph film;
+    film.width_px = geometry.width_px;
+    film.height_px = geometry.height_px;
+    setGeometryTags(film, geometry, SyntheticRig::ConeBeam);
+    films.push_back(film);
+  }
+  const BiplanarRig read = rigFromDicom(films), nominal = nominalRig(SyntheticRig::ConeBeam, 1, 3);
+  ASSERT_EQ(read.views.size(), 3u);
+  EXPECT_EQ(read.views[2].role, ViewRole::Oblique);
+  const Eigen::Vector3d p{0.1, 0.3, -0.12};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LT((*project(read.views[i], p) - *project(nominal.views[i], p)).norm(), 1e-6) << i;
+  // The first two views are those of the pair.
+  EXPECT_EQ(drawTrueRig(SyntheticRig::ConeBeam, 4, 1, 3).views[1].R_CW,
+            drawTrueRig(SyntheticRig::ConeBeam, 4).views[1].R_CW);
+}
+
 TEST(DrawTrueRig, ConeBeamIsALittleOffAndTheSeedSaysHow) {
   const BiplanarRig nominal = nominalRig(SyntheticRig::ConeBeam);
   const BiplanarRig a = drawTrueRig(SyntheticRig::ConeBeam, 1), b = drawTrueRig(SyntheticRig::ConeBeam, 2);

@@ -9,6 +9,7 @@
 #include "core/model/model.h"
 #include "core/model/physical_scaling.h"
 #include "core/passive/structure_moments.h"
+#include "core/posture/evaluate.h"
 #include "core/posture/validity.h"
 #include "core/skeleton/clinical_angles.h"
 #include "tests/support/postures.h"
@@ -70,6 +71,14 @@ TEST(PassiveStructures, AMarginIsWhatIsLeftUntilTheEndMoment) {
       EXPECT_EQ(margin.margin > 0, moment_Nm < end_Nm) << c.name;
     }
   }
+}
+
+TEST(PassiveStructures, StandingIsNearlyFree) {
+  const Skeleton& s = reference().skeleton;
+  const PostureEvaluation e =
+      evaluatePosture(s, reference().musculature, zeroPosture(s), reference().passive_moments);
+  for (int i = 0; i < s.coordinateCount(); ++i)
+    EXPECT_LT(std::abs(e.passive_torque[i]), 6) << s.coordinates[std::size_t(i)].name;  // a tenth of an exam's torque
 }
 
 TEST(PassiveStructures, AreAlikeOnBothSides) {

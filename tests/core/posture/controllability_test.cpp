@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/error.h"
 #include "core/muscle/hill.h"
 #include "core/muscle/load_musculature.h"
 #include "tests/support/resources.h"

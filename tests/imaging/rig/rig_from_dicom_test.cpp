@@ -103,9 +103,10 @@ TEST(RigFromDicom, NominalConeBeamByHand) {
   const BiplanarRig rig = rigOf(coneImage("PA", "R\\F"), coneImage("LL", "A\\F"));
   EXPECT_EQ(rig.calibration.method, "dicom_nominal");
   EXPECT_THAT(rig.calibration.warnings, Contains(Field(&Warning::code, "uncalibrated")));
-  const Eigen::Vector2d uv = *project(rig.views[0], Eigen::Vector3d{0.1, 0.2, 0.05});  // PA: the source is behind
-  EXPECT_NEAR(uv.x(), 900 + 6000 * 0.05 / 1.6, 1e-9);
-  EXPECT_NEAR(uv.y(), 4000 - 6000 * 0.2 / 1.6, 1e-9);
+  // PA: the source is behind. It is 1.5 m to the bucky, and the patient's middle is taken 0.15 m before that.
+  const Eigen::Vector2d uv = *project(rig.views[0], Eigen::Vector3d{0.1, 0.2, 0.05});
+  EXPECT_NEAR(uv.x(), 900 + 6000 * 0.05 / 1.45, 1e-9);
+  EXPECT_NEAR(uv.y(), 4000 - 6000 * 0.2 / 1.45, 1e-9);
 }
 
 TEST(RigFromDicom, PositionerAnglesTurnTheBeam) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/posture/validity.h"
 #include "core/rom/poses/pose_sampler.h"
