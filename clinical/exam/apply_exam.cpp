@@ -103,6 +103,7 @@ SideFit solve(const Side& s, bool leave_in_norm, double length_sd_m, bool with_i
   for (const MeasuredTest& m : s.measured) {
     fit.aims.push_back(aimOf(m, s.groups, leave_in_norm));
     problem.places.push_back(fit.aims.back().place);
+    problem.faded_to.push_back(fit.aims.back().faded_to);
     as_measured.places.push_back(m.measured_place);
   }
   const std::vector<double> ones(s.groups.size(), 1.0);

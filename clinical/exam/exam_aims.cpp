@@ -73,6 +73,7 @@ ExamAim aimOf(const MeasuredTest& test, const std::vector<FreeGroup>& groups, bo
     return aim;
   }
   aim.faded = true;
+  aim.faded_to = factor;
   aim.place = test.sweep->freeEnd_deg(test.threshold_Nm, alone(test, groups, factor));
   return aim;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,7 @@ struct ExamAim {
   double own_place = 0;  ///< where the body is held with unchanged lengths
   bool in_norm = false;  ///< left at 1: inside the norm, or no further from its mean than the SD of the measurement
   bool faded = false;    ///< the measurement calls for more change than kSteepest_per_deg allows
+  double faded_to = std::numeric_limits<double>::quiet_NaN();  ///< the factor that is allowed, if faded
   bool unattainable = false;  ///< whatever the length of its muscle, the body is held before
 };
 
@@ -55,6 +57,7 @@ struct SideProblem {
   const std::vector<FreeGroup>* groups;
   Scaled scaled = Scaled::FiberAndTendon;
   std::vector<double> places;       ///< to be met, by test
+  std::vector<double> faded_to;     ///< by test: factor of its first group that is aimed at instead; NaN = none
   std::vector<double> prior_means;  ///< by group
   double threshold_scale = 1;       ///< of every test's moment
 };

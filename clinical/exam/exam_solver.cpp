@@ -43,6 +43,10 @@ class ExamCost : public ceres::CostFunction {
                                                 : test.sweep->freeEndNear_deg(near_[i], threshold_Nm, factors);
       near_[i] = place;
       const double sd_deg = test.test->form->measurement_sd_deg;
+      if (const double faded_to = fadedTo(i); std::isfinite(faded_to)) {
+        residuals[i] = fadedResidual(test, faded_to, x, J ? J + i * count : nullptr);
+        continue;
+      }
       residuals[i] = (place - problem_.places[i]) / sd_deg;
       if (J) addSlopes(test, place, threshold_Nm, x, 1 / sd_deg, J + i * count);
     }
@@ -55,6 +59,19 @@ class ExamCost : public ceres::CostFunction {
   }
 
  private:
+  double fadedTo(std::size_t test) const { return problem_.faded_to.empty() ? NAN : problem_.faded_to[test]; }
+
+  /// (factor - the one that is allowed) / what an SD of the measurement is worth where it fades in. Beside a stiff
+  /// capsule a place says next to nothing about lengths, and the pull to 1 would win until it suddenly does not.
+  double fadedResidual(const MeasuredTest& test, double faded_to, const std::vector<double>& x, double* row) const {
+    const auto first = std::size_t(test.groups.front());
+    // The same change of length by the fibre alone.
+    const double share = problem_.scaled == Scaled::FiberOnly ? (*problem_.groups)[first].mean_fiber_share : 1;
+    const double sd = kSteepest_per_deg * test.test->form->measurement_sd_deg / share;
+    if (row) row[first] = 1 / sd;
+    return (x[first] - (1 + (faded_to - 1) / share)) / sd;
+  }
+
   void addSlopes(const MeasuredTest& test, double place, double threshold_Nm, const std::vector<double>& x,
                  double weight, double* row) const {
     constexpr double kPlace_deg = 0.02, kFactor = 1e-4;

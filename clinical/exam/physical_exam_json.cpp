@@ -58,7 +58,8 @@ Json comparisonToJson(const ExamComparison& c) {
 
 ExamComparison comparisonFromJson(const JsonReader& json) {
   json.allowOnly({"test", "side", "measured_deg", "simulated_before_deg", "simulated_after_deg", "residual_deg",
-                  "threshold_Nm", "stopped_by_joint", "limiting_muscles", "changed"});
+                  "reason", "norm_mean_deg", "norm_sd_deg", "threshold_Nm", "stopped_by_joint", "limiting_muscles",
+                  "limited_by", "changed"});
   ExamComparison c;
   c.test = json["test"].text();
   c.side = sideFromJson(json["side"]);

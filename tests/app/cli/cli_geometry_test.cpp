@@ -47,7 +47,7 @@ TEST(CliGeometry, ImportsTheWristCalibrationAndTriangulatesItsBeads) {
 TEST(CliGeometry, AFileOfSightingsIsNamedWithItsLine) {
   const test::TemporaryFolder folder;
   const std::string picks = (folder / "picks.csv").string();
-  writeFileAtomically(picks, "name,view,u_px,v_px\nA,1,10,20\nA,3,11,20\n");
+  writeFileAtomically(picks, "name,view,u_px,v_px\nA,1,10,20\nA,0,11,20\n");
   Json rig = parseJson(R"({"format":"sinew.rig","version":1,"patient_aligned":true,"views":[
     {"projection":"orthographic","width_px":9,"height_px":9,"R_CW":[[0,0,1],[0,-1,0],[1,0,0]],"p_CW_m":[0,0,0],
      "column_spacing_m":0.001,"row_spacing_m":0.001,"u0_px":0,"v0_px":0},
@@ -55,11 +55,16 @@ TEST(CliGeometry, AFileOfSightingsIsNamedWithItsLine) {
      "column_spacing_m":0.001,"row_spacing_m":0.001,"u0_px":0,"v0_px":0}]})",
                        "test");
   writeFileAtomically(folder / "rig.json", jsonText(rig));
-  const ProgramResult result =
-      sinewProgram({"triangulate", "--rig", folder / "rig.json", "--sightings", picks, "--json"});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(documentOf(result)["error"]["message"].get<std::string>(),
-              AllOf(HasSubstr("picks.csv: line 3"), HasSubstr("view: expected 1 or 2, found '3'")));
+  const auto complaint = [&] {
+    const ProgramResult result =
+        sinewProgram({"triangulate", "--rig", folder / "rig.json", "--sightings", picks, "--json"});
+    EXPECT_EQ(result.status, 2);
+    return documentOf(result)["error"]["message"].get<std::string>();
+  };
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("picks.csv: line 3"), HasSubstr("view: expected 1, 2, ..., found '0'")));
+  // How many views there are the rig knows, not the file.
+  writeFileAtomically(picks, "name,view,u_px,v_px\nA,1,10,20\nA,3,11,20\n");
+  EXPECT_THAT(complaint(), HasSubstr("A: expected a view from 1 to 2, found view 3"));
 
   writeFileAtomically(picks, "name,view,u_px,v_px\nA,1,10,20\nA,2,30,20\n");
   const ProgramResult good = sinewProgram({"triangulate", "--rig", folder / "rig.json", "--sightings", picks});

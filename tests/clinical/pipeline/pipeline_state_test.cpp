@@ -59,8 +59,7 @@ TEST(PipelineState, AMovedSightingMakesEverythingAfterItStale) {
 TEST(PipelineState, EachInputReachesTheStagesThatReadIt) {
   Case c = finishedCase();
   c.exam.examiner += "x";
-  EXPECT_THAT(states(c),
-              ElementsAre("done", "done", "done", "done", "stale", "stale", "stale"));  // postures of tests, too
+  EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "stale", "stale"));
   c = finishedCase();
   c.patient.diagnosis += "x";
   EXPECT_THAT(states(c), ElementsAre("done", "done", "done", "done", "done", "done", "stale"));
