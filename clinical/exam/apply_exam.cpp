@@ -103,11 +103,20 @@ SideFit solve(const Side& s, bool leave_in_norm, double length_sd_m, bool with_i
   for (const MeasuredTest& m : s.measured) {
     fit.aims.push_back(aimOf(m, s.groups, leave_in_norm));
     problem.places.push_back(fit.aims.back().place);
+    problem.sds_deg.push_back(fit.aims.back().sd_deg);
     problem.faded_to.push_back(fit.aims.back().faded_to);
     as_measured.places.push_back(m.measured_place);
   }
   const std::vector<double> ones(s.groups.size(), 1.0);
-  const SideSolution both = solveSide(problem, ones, job);
+  constexpr double kStuck = 2;       // a residual of two SD that better lengths would halve
+  std::vector<double> start = ones;  // a muscle that holds at once, or nowhere, has no slope to follow
+  for (std::size_t i = 0; i < s.measured.size(); ++i)
+    if (const ExamAim& aim = fit.aims[i]; !aim.in_norm)
+      start[std::size_t(s.measured[i].groups.front())] = aim.faded ? aim.faded_to : aim.asked;
+  SideSolution both = solveSide(problem, ones, job);
+  if (const SideSolution other = solveSide(problem, start, job);
+      other.usable() && (!both.usable() || (both.cost > kStuck && other.cost < 0.9 * both.cost)))
+    both = other;
   fit.outcome = both.outcome;
   fit.factors = both.factors;
   if (!both.usable()) return fit;

@@ -14,9 +14,9 @@ LengthFactors alone(const MeasuredTest& test, const std::vector<FreeGroup>& grou
 }
 
 /// Common factor of the test's groups at which this test by itself is met; at a bound if none does.
-double factorAlone(const MeasuredTest& test, const std::vector<FreeGroup>& groups) {
+double factorAlone(const MeasuredTest& test, const std::vector<FreeGroup>& groups, double measured_place) {
   const auto excess = [&](double factor) {
-    return test.sweep->excess(test.measured_place, test.threshold_Nm, alone(test, groups, factor));
+    return test.sweep->excess(measured_place, test.threshold_Nm, alone(test, groups, factor));
   };
   double low = kLeastFactor, high = kMostFactor;  // longer muscles hold less
   if (excess(low) < 0) return low;
@@ -26,6 +26,32 @@ double factorAlone(const MeasuredTest& test, const std::vector<FreeGroup>& group
     (excess(middle) > 0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+/// The factor that is asked for at `test.measured_place`, rising from the edge of the norm by no more than
+/// kSteepest_per_deg anywhere on the way: the nearest such curve on the side of 1. `sign`: -1 towards tighter places.
+double fadedFactor(const MeasuredTest& test, const std::vector<FreeGroup>& groups, double edge, double asked,
+                   double sign) {
+  constexpr double kStep_deg = 1;
+  double factor = std::abs(asked - 1);
+  if (sign * (asked - 1) <= 0) return 1;  // never longer for a tighter body, never shorter for a laxer one
+  const double away_deg = std::abs(test.measured_place - edge);
+  const double along = test.measured_place > edge ? 1 : -1;
+  for (double back_deg = kStep_deg; back_deg < away_deg; back_deg += kStep_deg) {
+    const double there = sign * (factorAlone(test, groups, test.measured_place - along * back_deg) - 1);
+    factor = std::min(factor, std::max(0.0, there) + kSteepest_per_deg * back_deg);
+  }
+  factor = std::min(factor, kSteepest_per_deg * away_deg);
+  return 1 + sign * factor;
+}
+
+/// SD of a place so that what it says of the factor is never less than kSteepest_per_deg times the measurement's.
+/// Beside a stiff capsule the place hardly depends on lengths; the pull to 1 would win there, and then suddenly not.
+double sdOfPlace_deg(const MeasuredTest& test, const std::vector<FreeGroup>& groups, double factor) {
+  constexpr double kFactor = 0.01, kLeastShare = 0.01;
+  const auto place = [&](double f) { return test.sweep->freeEnd_deg(test.threshold_Nm, alone(test, groups, f)); };
+  const double per_factor_deg = std::abs(place(factor + kFactor) - place(factor - kFactor)) / (2 * kFactor);
+  return test.test->form->measurement_sd_deg * std::clamp(per_factor_deg * kSteepest_per_deg, kLeastShare, 1.0);
 }
 
 /// The norm as an interval of places along the movement.
@@ -51,7 +77,7 @@ LengthFactors lengthFactors(const std::vector<FreeGroup>& groups, const std::vec
 ExamAim aimOf(const MeasuredTest& test, const std::vector<FreeGroup>& groups, bool leave_in_norm) {
   const double direction = test.sweep->direction();
   const double free_place = test.sweep->freeEnd_deg(test.threshold_Nm);
-  ExamAim aim{.place = free_place, .own_place = free_place};
+  ExamAim aim{.place = free_place, .own_place = free_place, .sd_deg = test.test->form->measurement_sd_deg};
   if ((free_place - test.sweep->end_deg()) * direction > 0) aim.own_place = test.sweep->end_deg();
   const auto [low, high] = band(test, aim.own_place, leave_in_norm);
   // Along the movement, so that less is always tighter.
@@ -62,14 +88,15 @@ ExamAim aimOf(const MeasuredTest& test, const std::vector<FreeGroup>& groups, bo
     aim.in_norm = leave_in_norm;
     return aim;
   }
-  const double asked = factorAlone(test, groups);
+  const double asked = aim.asked = factorAlone(test, groups, test.measured_place);
   aim.unattainable = aim.unattainable && asked >= kMostFactor;
   // A body tighter than the norm is never made longer for it, a laxer one never shorter: the factor is monotone in
   // the measurement, also where the norm of the age is not what this body has by itself.
-  const double factor = measured < tight ? std::min(1.0, std::max(asked, 1 - kSteepest_per_deg * (tight - measured)))
-                                         : std::max(1.0, std::min(asked, 1 + kSteepest_per_deg * (measured - lax)));
+  const double factor = measured < tight ? fadedFactor(test, groups, direction * tight, asked, -1)
+                                         : fadedFactor(test, groups, direction * lax, asked, 1);
   if (factor == asked && asked > kLeastFactor && asked < kMostFactor) {
     aim.place = test.measured_place;
+    aim.sd_deg = sdOfPlace_deg(test, groups, asked);
     return aim;
   }
   aim.faded = true;

@@ -42,6 +42,9 @@ struct MeasuredTest {
 struct ExamAim {
   double place = 0;      ///< where the movement shall be held
   double own_place = 0;  ///< where the body is held with unchanged lengths
+  double asked = 1;      ///< factor of its groups with which the measurement is met by this test alone
+  /// What the place may be off by: the SD of the measurement, less where a place hardly depends on lengths.
+  double sd_deg = std::numeric_limits<double>::quiet_NaN();
   bool in_norm = false;  ///< left at 1: inside the norm, or no further from its mean than the SD of the measurement
   bool faded = false;    ///< the measurement calls for more change than kSteepest_per_deg allows
   double faded_to = std::numeric_limits<double>::quiet_NaN();  ///< the factor that is allowed, if faded
@@ -57,6 +60,7 @@ struct SideProblem {
   const std::vector<FreeGroup>* groups;
   Scaled scaled = Scaled::FiberAndTendon;
   std::vector<double> places;       ///< to be met, by test
+  std::vector<double> sds_deg;      ///< by test, of the places; empty: those of the measurements
   std::vector<double> faded_to;     ///< by test: factor of its first group that is aimed at instead; NaN = none
   std::vector<double> prior_means;  ///< by group
   double threshold_scale = 1;       ///< of every test's moment
@@ -64,6 +68,7 @@ struct SideProblem {
 struct SideSolution {
   Outcome outcome = Outcome::NotRun;
   std::vector<double> factors;  ///< by group; empty unless usable
+  double cost = 0;              ///< half the sum of squares
   bool usable() const { return !factors.empty(); }
 };
 /// @param start by group; where solved factors are expected.

@@ -42,7 +42,7 @@ class ExamCost : public ceres::CostFunction {
       const double place = std::isnan(near_[i]) ? test.sweep->freeEnd_deg(threshold_Nm, factors)
                                                 : test.sweep->freeEndNear_deg(near_[i], threshold_Nm, factors);
       near_[i] = place;
-      const double sd_deg = test.test->form->measurement_sd_deg;
+      const double sd_deg = problem_.sds_deg.empty() ? test.test->form->measurement_sd_deg : problem_.sds_deg[i];
       if (const double faded_to = fadedTo(i); std::isfinite(faded_to)) {
         residuals[i] = fadedResidual(test, faded_to, x, J ? J + i * count : nullptr);
         continue;
@@ -119,6 +119,7 @@ SideSolution solveSide(const SideProblem& problem, const std::vector<double>& st
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
   solution.outcome = outcomeOf(summary);
+  solution.cost = summary.final_cost;
   const bool finite = std::ranges::all_of(solution.factors, [](double f) { return std::isfinite(f); });
   // Out of iterations is a point that is better than the start: kept, and said by the caller.
   if (solution.outcome == Outcome::Cancelled || !summary.IsSolutionUsable() || !finite) solution.factors.clear();

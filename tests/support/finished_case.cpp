@@ -45,7 +45,7 @@ PhysicalExam examOf(const Model& body, const ClinicalTests& protocol) {
   std::map<std::string, double> short_hamstrings;
   for (const auto& group : protocol.groups)
     if (group.name == "hamstrings")
-      for (const auto& unit : group.units) short_hamstrings[unit + "_r"] = 0.86;
+      for (const auto& unit : group.units) short_hamstrings[unit + "_r"] = 0.92;
   const Model patient = withLengthFactors(body, short_hamstrings);
   PhysicalExam exam;
   exam.date = "2026-05-06";

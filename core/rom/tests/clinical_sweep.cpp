@@ -285,7 +285,16 @@ double ClinicalSweep::freeEnd_deg(double threshold_Nm, const LengthFactors& fact
   const double near = direction > 0 ? table_->s_deg.front() : table_->s_deg.back();
   const auto held = [&](double s) { return table_->excess(s, threshold_Nm, factors) >= 0; };
   double free = table_->movement.from_deg(), stopped = free;
-  if (held(free)) {  // a contracture beyond the position of ease
+  // Held at ease by what the movement lets go, an antagonist at its longest: the test begins where it is free.
+  const auto eases = [&](double s) {
+    return table_->excess(s + direction * kStride_deg, threshold_Nm, factors) <
+           table_->excess(s, threshold_Nm, factors);
+  };
+  while (held(free) && (far - free) * direction > kStride_deg && eases(free)) free += direction * kStride_deg;
+  if (!held(free)) {
+    stopped = free;
+  } else {  // a contracture beyond the position of ease
+    free = table_->movement.from_deg();
     do {
       if (free == near) return near;
       stopped = free;

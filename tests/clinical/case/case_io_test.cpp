@@ -132,7 +132,7 @@ TEST(CaseIo, SavingKeepsThePreviousStateWhenTheNewOneIsUnusable) {
   Case c = fullCase();
   saveCase(c, folder.path());
   const Case before = loadCase(folder.path());
-  c.sightings[0].view = 5;
+  c.sightings[0].view = -1;
   EXPECT_THROW(saveCase(c, folder.path()), InputError);
   EXPECT_TRUE(loadCase(folder.path()) == before);
   EXPECT_THAT(complaintOf([&] { loadCase(folder / "nowhere"); }), HasSubstr("no case.json"));
