@@ -252,9 +252,14 @@ void paintFigure(QPainter& painter, const QRectF& box, const Figure& figure, con
                       height - above};
     PanelPainter{painter, area, x, figure.panels[i], style}.paint(i + 1 == figure.panels.size());
   }
+  const QRectF below{box.left(), room.bottom() + 1.7 * em, box.width() - 1.3 * em, 1.5 * em};
+  const double wide = QFontMetricsF{font}.horizontalAdvance(q(figure.x_label));
+  if (wide > below.width()) {  // a long convention stays whole
+    font.setPixelSize(std::max(1, int(em * below.width() / wide)));
+    painter.setFont(font);
+  }
   painter.setPen(kMuted);
-  painter.drawText(QRectF{box.left(), room.bottom() + 1.7 * em, box.width() - 1.3 * em, 1.5 * em},
-                   Qt::AlignRight | Qt::AlignVCenter | Qt::TextSingleLine, q(figure.x_label));
+  painter.drawText(below, Qt::AlignRight | Qt::AlignVCenter | Qt::TextSingleLine, q(figure.x_label));
   painter.restore();
 }
 

@@ -25,7 +25,7 @@ std::string normText(const MeasuredTest& t) {
   if (!std::isfinite(mean)) return "the SD of its measurement";
   std::string text = "the norm, " + degrees(mean);
   if (std::isfinite(t.norm.sd_deg))
-    text += " -+ " + degrees(std::max(t.norm.sd_deg, t.test->form->measurement_sd_deg));
+    text += " +- " + degrees(std::max(t.norm.sd_deg, t.test->form->measurement_sd_deg));
   return text;
 }
 
