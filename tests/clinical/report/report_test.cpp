@@ -191,7 +191,7 @@ TEST_F(CaseReport, AMeasurementBeyondItsNormIsMarkedLikeABone) {
 TEST_F(CaseReport, MuscleTableFindsTheShortHamstrings) {
   for (const auto& row : report_->muscles.rows)
     if (row[0] == "Hamstrings") {
-      EXPECT_NEAR(std::stod(row[1]), 0.92, 0.03);  // right; the fitted skeleton is not quite the true one
+      EXPECT_NEAR(std::stod(row[1]), 0.92, 0.03);        // right; the fitted skeleton is not quite the true one
       EXPECT_THAT(row[2], testing::StartsWith("1.00"));  // the unilateral test hurt, the bilateral one was done
       EXPECT_THAT(row[5], HasSubstr("popliteal"));
     }
