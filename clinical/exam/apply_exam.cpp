@@ -93,7 +93,16 @@ struct SideFit {
   std::vector<FactorInterval> intervals;    ///< by group; empty if there are none
 };
 
-/// Where solved factors are expected: what each group's own test asks of it alone is in its aim already.
+/// What each group's own test asks of it alone: a start for muscles that hold at once, or nowhere.
+std::vector<double> askedAlone(const Side& s, const std::vector<ExamAim>& aims) {
+  std::vector<double> factors(s.groups.size(), 1.0);
+  for (std::size_t i = 0; i < s.measured.size(); ++i)
+    if (!aims[i].in_norm)
+      factors[std::size_t(s.measured[i].groups.front())] = aims[i].faded ? aims[i].faded_to : aims[i].asked;
+  return factors;
+}
+
+/// From unchanged lengths; once more from what the tests ask each by itself, where that leaves much unmet.
 SideFit solve(const Side& s, bool leave_in_norm, double length_sd_m, bool with_intervals, const Job& job) {
   SideFit fit;
   if (s.measured.empty()) return fit;
@@ -108,15 +117,12 @@ SideFit solve(const Side& s, bool leave_in_norm, double length_sd_m, bool with_i
     as_measured.places.push_back(m.measured_place);
   }
   const std::vector<double> ones(s.groups.size(), 1.0);
-  constexpr double kStuck = 2;       // a residual of two SD that better lengths would halve
-  std::vector<double> start = ones;  // a muscle that holds at once, or nowhere, has no slope to follow
-  for (std::size_t i = 0; i < s.measured.size(); ++i)
-    if (const ExamAim& aim = fit.aims[i]; !aim.in_norm)
-      start[std::size_t(s.measured[i].groups.front())] = aim.faded ? aim.faded_to : aim.asked;
   SideSolution both = solveSide(problem, ones, job);
-  if (const SideSolution other = solveSide(problem, start, job);
-      other.usable() && (!both.usable() || (both.cost > kStuck && other.cost < 0.9 * both.cost)))
-    both = other;
+  constexpr double kStuck = 2;  // cost of one residual of two SD: the start may have had no slope to follow
+  if (!both.usable() || both.cost > kStuck) {
+    const SideSolution other = solveSide(problem, askedAlone(s, fit.aims), job);
+    if (other.usable() && (!both.usable() || other.cost < 0.9 * both.cost)) both = other;
+  }
   fit.outcome = both.outcome;
   fit.factors = both.factors;
   if (!both.usable()) return fit;
